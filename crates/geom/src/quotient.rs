@@ -1,0 +1,79 @@
+//! The quotient rule: from homogeneous jets to Euclidean ones.
+
+use crate::{CurveJet, GeomError, SurfaceJet};
+
+/// A number with its partial derivatives up to order 2: the denominator of a rational surface.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ScalarJet {
+    /// w
+    pub value: f64,
+    /// ∂w/∂u
+    pub du: f64,
+    /// ∂w/∂v
+    pub dv: f64,
+    /// ∂²w/∂u²
+    pub duu: f64,
+    /// ∂²w/∂u∂v
+    pub duv: f64,
+    /// ∂²w/∂v²
+    pub dvv: f64,
+}
+
+/// The jet of `S = N/w` from those of N and w: `S_α = (N_α − Σ_{0<β≤α} C(α,β) w_β S_{α−β}) / w`.
+///
+/// `uncertainty` is a bound on the error of w, 0 where w is taken as exact: a denominator within it of zero
+/// counts as zero.
+/// Error: that of N and w, magnified by `1/|w|` once an order.
+///
+/// # Errors
+/// [`GeomError::Pole`] where w vanishes, [`GeomError::Overflow`] where the answer would not be finite.
+///
+/// Source: Piegl and Tiller, *The NURBS Book*, 2nd ed., sec. 4.5.
+pub fn quotient_jet(
+    numerator: &SurfaceJet,
+    denominator: &ScalarJet,
+    uncertainty: f64,
+) -> Result<SurfaceJet, GeomError> {
+    let (n, w) = (numerator, denominator);
+    refuse_pole(w.value, uncertainty)?;
+    let point = n.point / w.value;
+    let du = (n.du - point * w.du) / w.value;
+    let dv = (n.dv - point * w.dv) / w.value;
+    let jet = SurfaceJet {
+        point,
+        du,
+        dv,
+        duu: (n.duu - du * (2.0 * w.du) - point * w.duu) / w.value,
+        duv: (n.duv - dv * w.du - du * w.dv - point * w.duv) / w.value,
+        dvv: (n.dvv - dv * (2.0 * w.dv) - point * w.dvv) / w.value,
+    };
+    if jet.is_finite() { Ok(jet) } else { Err(GeomError::Overflow { denominator: w.value }) }
+}
+
+/// The jet of a curve `C = N/w`; `denominator` holds w and its first three derivatives. Otherwise as
+/// [`quotient_jet`].
+///
+/// # Errors
+/// [`GeomError::Pole`] where w vanishes, [`GeomError::Overflow`] where the answer would not be finite.
+pub fn quotient_curve_jet(
+    numerator: &CurveJet,
+    denominator: [f64; 4],
+    uncertainty: f64,
+) -> Result<CurveJet, GeomError> {
+    let (n, [w, w1, w2, w3]) = (numerator, denominator);
+    refuse_pole(w, uncertainty)?;
+    let point = n.point / w;
+    let d1 = (n.d1 - point * w1) / w;
+    let d2 = (n.d2 - d1 * (2.0 * w1) - point * w2) / w;
+    let d3 = (n.d3 - d2 * (3.0 * w1) - d1 * (3.0 * w2) - point * w3) / w;
+    let jet = CurveJet { point, d1, d2, d3 };
+    if jet.is_finite() { Ok(jet) } else { Err(GeomError::Overflow { denominator: w }) }
+}
+
+fn refuse_pole(denominator: f64, uncertainty: f64) -> Result<(), GeomError> {
+    if denominator.abs() > uncertainty.max(0.0) {
+        Ok(())
+    } else {
+        Err(GeomError::Pole { denominator, uncertainty })
+    }
+}
