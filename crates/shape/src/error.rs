@@ -1,0 +1,165 @@
+//! What can be wrong with a shape, and the check every shape makes of its control points.
+
+use casteljau_bernstein::{BernsteinError, MAX_DEGREE};
+use casteljau_geom::glam::DVec3;
+use thiserror::Error;
+
+/// Coordinates beyond this are refused, so that squares of lengths and products with binomial coefficients
+/// stay finite.
+pub const LARGEST_COORDINATE: f64 = 1e140;
+
+/// Why a shape could not be made, or a question about it not be answered.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ShapeError {
+    /// A shape without control points.
+    ///
+    /// ```
+    /// use casteljau_shape::{Curve, ShapeError};
+    /// assert_eq!(Curve::new(vec![]), Err(ShapeError::NoControlPoints));
+    /// ```
+    #[error("no control points")]
+    NoControlPoints,
+
+    /// A coordinate that is not finite, or larger than [`LARGEST_COORDINATE`].
+    ///
+    /// ```
+    /// use casteljau_shape::{Curve, ShapeError, geom::glam::DVec3};
+    /// let refused = Curve::new(vec![DVec3::ZERO, DVec3::new(0.0, f64::INFINITY, 0.0)]);
+    /// assert_eq!(refused, Err(ShapeError::Coordinate { place: 1, axis: 1, value: f64::INFINITY }));
+    /// ```
+    #[error("control point {place}, coordinate {axis}: {value} is not a number below {LARGEST_COORDINATE:e}")]
+    Coordinate {
+        /// Place of the control point in memory, from 0.
+        place: usize,
+        /// 0, 1, 2 for x, y, z.
+        axis: usize,
+        /// The coordinate.
+        value: f64,
+    },
+
+    /// A degree above [`MAX_DEGREE`].
+    ///
+    /// ```
+    /// use casteljau_shape::{Curve, ShapeError, geom::glam::DVec3};
+    /// let refused = Curve::new(vec![DVec3::ZERO; 502]);
+    /// assert_eq!(refused, Err(ShapeError::Degree { degree: 501, limit: 500 }));
+    /// ```
+    #[error("degree {degree} is above the limit of {limit}")]
+    Degree {
+        /// The degree asked for.
+        degree: usize,
+        /// The largest one served.
+        limit: usize,
+    },
+
+    /// A patch whose number of control points does not fit its degrees.
+    ///
+    /// ```
+    /// use casteljau_shape::{Patch, ShapeError, geom::glam::DVec3};
+    /// let refused = Patch::new([1, 1], vec![DVec3::ZERO; 3]);
+    /// assert_eq!(refused, Err(ShapeError::NetSize { degrees: [1, 1], needed: 4, given: 3 }));
+    /// ```
+    #[error("a patch of degrees {} × {} has {needed} control points, not {given}", .degrees[0], .degrees[1])]
+    NetSize {
+        /// The degrees with u and v.
+        degrees: [usize; 2],
+        /// (m+1)(n+1).
+        needed: usize,
+        /// The number given.
+        given: usize,
+    },
+
+    /// A parameter that is not finite.
+    ///
+    /// ```
+    /// use casteljau_shape::{Curve, ShapeError, geom::glam::DVec3};
+    /// let point = Curve::new(vec![DVec3::ZERO])?;
+    /// assert!(matches!(point.split(f64::NAN), Err(ShapeError::Parameter { .. })));
+    /// # Ok::<(), ShapeError>(())
+    /// ```
+    #[error("the parameter {value} is not finite")]
+    Parameter {
+        /// The parameter.
+        value: f64,
+    },
+
+    /// A relative accuracy that is not between 0 and 1.
+    ///
+    /// ```
+    /// use casteljau_shape::{Curve, ShapeError, geom::glam::DVec3};
+    /// let line = Curve::new(vec![DVec3::ZERO, DVec3::X])?;
+    /// assert_eq!(line.arc_length(0.0), Err(ShapeError::Accuracy { relative: 0.0 }));
+    /// # Ok::<(), ShapeError>(())
+    /// ```
+    #[error("the relative accuracy {relative} does not lie between 0 and 1")]
+    Accuracy {
+        /// The accuracy asked for.
+        relative: f64,
+    },
+
+    /// A curve all of whose control points coincide: its length is 0, which no relative accuracy can describe.
+    ///
+    /// ```
+    /// use casteljau_shape::{Curve, ShapeError, geom::glam::DVec3};
+    /// let point = Curve::new(vec![DVec3::ONE; 4])?;
+    /// assert_eq!(point.arc_length(1e-10), Err(ShapeError::ZeroLength { control_points: 4 }));
+    /// # Ok::<(), ShapeError>(())
+    /// ```
+    #[error("the curve has length zero: its {control_points} control points coincide")]
+    ZeroLength {
+        /// How many there are.
+        control_points: usize,
+    },
+
+    /// The arc length was not reached to the accuracy asked for.
+    ///
+    /// ```
+    /// use casteljau_shape::{Curve, ShapeError, geom::glam::DVec3};
+    /// let parabola = Curve::new(vec![DVec3::ZERO, DVec3::X, DVec3::ONE])?;
+    /// let refused = parabola.arc_length(1e-17); // finer than rounding
+    /// assert!(matches!(refused, Err(ShapeError::ArcLength { reached, .. }) if reached < 1e-13));
+    /// # Ok::<(), ShapeError>(())
+    /// ```
+    #[error(
+        "arc length {length:e} is certain to {reached:.1e} of itself only, {relative:.1e} was asked for ({pieces} pieces)"
+    )]
+    ArcLength {
+        /// The length found.
+        length: f64,
+        /// The relative accuracy that is certain.
+        reached: f64,
+        /// The relative accuracy asked for.
+        relative: f64,
+        /// The number of pieces that were looked at.
+        pieces: usize,
+    },
+
+    /// A kernel refused.
+    ///
+    /// ```
+    /// use casteljau_shape::{Curve, ShapeError, geom::glam::DVec3};
+    /// let line = Curve::new(vec![DVec3::ZERO, DVec3::X])?;
+    /// assert!(matches!(line.elevated(1000), Err(ShapeError::Kernel(_))));
+    /// # Ok::<(), ShapeError>(())
+    /// ```
+    #[error(transparent)]
+    Kernel(#[from] BernsteinError),
+}
+
+/// Every coordinate finite and in range.
+pub(crate) fn check_points(points: &[DVec3]) -> Result<(), ShapeError> {
+    for (place, p) in points.iter().enumerate() {
+        for (axis, value) in p.to_array().into_iter().enumerate() {
+            if value.is_nan() || value.abs() > LARGEST_COORDINATE {
+                return Err(ShapeError::Coordinate { place, axis, value });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The degree within the kernels' range.
+pub(crate) fn check_degree(degree: usize) -> Result<(), ShapeError> {
+    if degree > MAX_DEGREE { Err(ShapeError::Degree { degree, limit: MAX_DEGREE }) } else { Ok(()) }
+}
