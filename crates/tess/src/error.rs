@@ -1,0 +1,84 @@
+use casteljau_domain::DomainError;
+use casteljau_gb::GbError;
+use casteljau_mesh::MeshError;
+
+/// What can be wrong with a tessellation, and where. Patches are counted from 0.
+///
+/// ```
+/// use casteljau_tess::{TessError, TessellationOptions, no_progress, tessellate};
+/// let nothing = tessellate(&[], &TessellationOptions::resolution(8), &mut no_progress);
+/// assert_eq!(nothing.unwrap_err(), TessError::Empty);
+/// ```
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TessError {
+    /// No patch was given.
+    #[error("there is no patch to tessellate")]
+    Empty,
+    /// A chord tolerance that is no number, not positive, infinite, or below what rounding leaves of the coordinates.
+    #[error(
+        "the chord tolerance is {value:e}; for this model it must be a finite number from {least:.1e} up"
+    )]
+    Tolerance {
+        /// The tolerance, in model units.
+        value: f64,
+        /// The least one accepted, in model units.
+        least: f64,
+    },
+    /// A resolution below 1.
+    #[error("the resolution is {value} samples a side, at least 1 is needed")]
+    Resolution {
+        /// The resolution.
+        value: usize,
+    },
+    /// The mesh would have more vertices than allowed. Found out from an estimate where that is far beyond the limit,
+    /// so that nothing was allocated for it.
+    #[error("about {needed:.3e} vertices are needed by patch {patch}, {limit} are allowed")]
+    TooManyVertices {
+        /// The patch in work.
+        patch: usize,
+        /// Vertices needed up to there, roughly.
+        needed: f64,
+        /// [`TessellationOptions::max_vertices`](crate::TessellationOptions::max_vertices).
+        limit: usize,
+    },
+    /// Refinement ended before the chord tolerance was kept everywhere.
+    #[error(
+        "patch {patch} is within {reached:.3e} of its mesh of {vertices} vertices only, not within {tolerance:.3e}"
+    )]
+    ToleranceMissed {
+        /// The patch.
+        patch: usize,
+        /// The tolerance, in model units.
+        tolerance: f64,
+        /// Largest chord error left, in model units.
+        reached: f64,
+        /// Vertices of the patch at that time.
+        vertices: usize,
+    },
+    /// The progress callback asked to stop.
+    #[error("cancelled at {:.0} %", 100.0 * fraction)]
+    Cancelled {
+        /// How much was done, 0 to 1.
+        fraction: f64,
+    },
+    /// A patch could not be evaluated.
+    #[error("patch {patch}: {source}")]
+    Patch {
+        /// The patch.
+        patch: usize,
+        /// What it said.
+        source: GbError,
+    },
+    /// The domain of a patch could not be triangulated.
+    #[error("the domain of patch {patch}: {source}")]
+    Domain {
+        /// The patch.
+        patch: usize,
+        /// What is wrong with it.
+        source: DomainError,
+    },
+    /// The sink refused a vertex or a triangle.
+    #[error("the sink: {0}")]
+    Sink(#[from] MeshError),
+}
