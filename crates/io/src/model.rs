@@ -1,0 +1,191 @@
+//! The model file: JSON, `{"casteljau": 1, "shapes": [ … ]}`.
+//!
+//! A shape has a `kind` and an optional `name`. Supported so far: `gb_patch` of form `concave`, with the fields
+//!
+//! | field | value |
+//! | --- | --- |
+//! | `ribbons` | `[{"control_points": [k][j]}]`, one a side; row k = 0 is the side itself |
+//! | `layout` | `"projection"` (default), `"heuristic"`, `"regular"` |
+//! | `domain` | in place of `layout`: `[[u, v], …]`, vertex i ends side i; it may run clockwise |
+//! | `coordinates` | `"harmonic"` (default), `"wachspress"`, `"mean_value"` |
+//! | `blend_power` | positive integer, default 2 |
+//! | `center` | `[x, y, z]` |
+//! | `center_weight` | `"none"` (default), `"deficiency"`, `"nth"`, `"harmonic"` |
+//! | `corner_points` | `[{"corner": i, "point": [x, y, z]}]` |
+//!
+//! Unknown fields are refused. Numbers read to the nearest f64 and are written in the shortest form that reads back to
+//! the same bits: writing a model that was read gives the same values.
+
+use std::io::Write;
+use std::sync::Arc;
+
+use crate::place::{Step, path_text};
+use crate::{GbPatchRecord, IoError, Place};
+
+mod locate;
+mod wire;
+mod write;
+
+/// The shapes of a file, in its order.
+///
+/// ```
+/// use casteljau_io::model::{Model, Shape};
+/// let text = r#"{"casteljau": 1, "shapes": [{"kind": "gb_patch", "name": "tile", "ribbons": [
+///   {"control_points": [[[0, 0, 0], [1, 0, 0]]]},
+///   {"control_points": [[[1, 0, 0], [0, 1, 0]]]},
+///   {"control_points": [[[0, 1, 0], [0, 0, 0.1]]]}]}]}"#;
+/// let model = Model::read(text, "tile.json")?;
+/// let Shape::GbPatch(tile) = &model.shapes[0].shape else { return Ok(()) };
+/// assert_eq!(tile.ribbons[2].control_points[0][1], [0.0, 0.0, 0.1]);
+///
+/// let mut again = Vec::new();
+/// model.write(&mut again)?;
+/// assert_eq!(Model::read(str::from_utf8(&again)?, "again.json")?, model);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Model {
+    /// The shapes.
+    pub shapes: Vec<NamedShape>,
+}
+
+/// A shape, its name, and where it came from.
+///
+/// Two are equal if name and shape are, wherever they came from.
+#[derive(Clone, Debug)]
+pub struct NamedShape {
+    /// The name, if it has one.
+    pub name: Option<String>,
+    /// The shape.
+    pub shape: Shape,
+    origin: Option<(Arc<Origin>, usize)>,
+}
+
+/// What a shape can be.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Shape {
+    /// A concave GB patch.
+    GbPatch(GbPatchRecord),
+}
+
+impl Shape {
+    /// The word for it in model files.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::GbPatch(_) => "gb_patch",
+        }
+    }
+}
+
+/// The file that a shape came from, kept so that what is found out later can still be placed.
+#[derive(Debug)]
+pub(crate) enum Origin {
+    /// A model file and its text: lines are looked up when they are needed, by reading once more.
+    Json { file: String, text: Box<str> },
+    /// A `.cgb` file and the line on which each ribbon starts.
+    Cgb { file: String, ribbons: Vec<usize> },
+}
+
+impl Model {
+    /// Reads a model from the text of a file; `file` is the name for messages.
+    ///
+    /// Error: [`IoError::Invalid`] with the line, the column and the path in the document.
+    pub fn read(text: &str, file: &str) -> Result<Self, IoError> {
+        let records = wire::read(text, file)?;
+        let origin = Arc::new(Origin::Json { file: file.into(), text: text.into() });
+        let shapes = records
+            .into_iter()
+            .enumerate()
+            .map(|(index, (name, record))| NamedShape {
+                name,
+                shape: Shape::GbPatch(record),
+                origin: Some((origin.clone(), index)),
+            })
+            .collect::<Vec<_>>();
+        shapes.iter().try_for_each(NamedShape::check)?;
+        Ok(Self { shapes })
+    }
+
+    /// Writes the model, one row of control points a line.
+    ///
+    /// Error: a shape that reading would refuse, or what the stream says.
+    pub fn write(&self, out: &mut (impl Write + ?Sized)) -> Result<(), IoError> {
+        for (index, shape) in self.shapes.iter().enumerate() {
+            shape.check_as(index)?;
+        }
+        write::write(self, out)
+    }
+}
+
+impl NamedShape {
+    /// A shape that comes from no file.
+    pub fn new(name: Option<String>, shape: Shape) -> Self {
+        Self { name, shape, origin: None }
+    }
+
+    pub(crate) fn from_cgb(record: GbPatchRecord, file: &str, ribbons: Vec<usize>) -> Self {
+        let origin = Arc::new(Origin::Cgb { file: file.into(), ribbons });
+        Self { name: None, shape: Shape::GbPatch(record), origin: Some((origin, 0)) }
+    }
+
+    /// Where the shape is described: file, line and path.
+    pub fn place(&self) -> Place {
+        self.place_of(&[])
+    }
+
+    /// Where a part of the shape is described; a part that the file leaves out is placed with what holds it.
+    ///
+    /// ```
+    /// # use casteljau_io::{Step, model::Model};
+    /// # let text = "{\"casteljau\": 1, \"shapes\": [{\"kind\": \"gb_patch\", \"ribbons\": [
+    /// # {\"control_points\": [[[0, 0, 0], [1, 0, 0]]]},
+    /// # {\"control_points\": [[[1, 0, 0], [0, 1, 0]]]},
+    /// # {\"control_points\": [[[0, 1, 0], [0, 0, 0.1]]]}]}]}";
+    /// let model = Model::read(text, "tile.json")?;
+    /// let place = model.shapes[0].place_of(&[Step::Field("ribbons"), Step::Index(2)]);
+    /// assert_eq!(place.to_string(), "tile.json:4: shapes[0].ribbons[2]");
+    /// # Ok::<(), casteljau_io::IoError>(())
+    /// ```
+    pub fn place_of(&self, part: &[Step]) -> Place {
+        match &self.origin {
+            None => Place { path: path_text(part), ..Place::file("model") },
+            Some((origin, index)) => match origin.as_ref() {
+                Origin::Json { file, text } => {
+                    let steps = [&[Step::Field("shapes"), Step::Index(*index)], part].concat();
+                    let line = locate::locate(text, &steps);
+                    Place { line, path: path_text(&steps), ..Place::file(file) }
+                }
+                Origin::Cgb { file, ribbons } => {
+                    let line = match part {
+                        [Step::Field("ribbons"), Step::Index(side), ..] => ribbons.get(*side).copied(),
+                        _ => None,
+                    };
+                    // These files have no names for their parts: those of the model file say what is meant.
+                    let path = if line.is_none() { path_text(part) } else { String::new() };
+                    Place { line, path, ..Place::file(file) }
+                }
+            },
+        }
+    }
+
+    fn check(&self) -> Result<(), IoError> {
+        let Shape::GbPatch(record) = &self.shape;
+        record.check().map_err(|(steps, reason)| IoError::invalid(self.place_of(&steps), reason))
+    }
+
+    /// Checks a shape that is to be written as the one of this number.
+    fn check_as(&self, index: usize) -> Result<(), IoError> {
+        let Shape::GbPatch(record) = &self.shape;
+        record.check().map_err(|(steps, reason)| {
+            let steps = [vec![Step::Field("shapes"), Step::Index(index)], steps].concat();
+            IoError::invalid(Place { path: path_text(&steps), ..Place::file(crate::error::STREAM) }, reason)
+        })
+    }
+}
+
+impl PartialEq for NamedShape {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name && self.shape == other.shape
+    }
+}
