@@ -1,0 +1,64 @@
+use casteljau_domain::DomainError;
+use casteljau_gb::GbError;
+
+/// Why a picture cannot be drawn.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PlotError {
+    /// Nothing was given to draw.
+    ///
+    /// ```
+    /// use casteljau_plot::{PatchStyle, PlotError, patch_picture};
+    /// assert_eq!(patch_picture(&[], &PatchStyle::default()), Err(PlotError::Nothing));
+    /// ```
+    #[error("there is nothing to draw")]
+    Nothing,
+    /// A number of the style is out of range.
+    ///
+    /// ```
+    /// use casteljau_plot::{PatchStyle, PlotError, patch_picture};
+    /// let style = PatchStyle { width: 7, ..PatchStyle::default() };
+    /// let error = patch_picture(&[], &style).unwrap_err();
+    /// assert_eq!(error.to_string(), "the width in pixels must be 100 to 10000, not 7");
+    /// ```
+    #[error("the {option} must be {least} to {most}, not {value}")]
+    Option {
+        /// Which number.
+        option: &'static str,
+        /// Value given.
+        value: f64,
+        /// Least value.
+        least: f64,
+        /// Largest value.
+        most: f64,
+    },
+    /// There is no such coordinate or side.
+    ///
+    /// ```
+    /// use casteljau_domain::{Coordinates, Polygon, glam::dvec2};
+    /// use casteljau_plot::{DomainStyle, PlotError, domain_picture};
+    /// let triangle = Polygon::new(vec![dvec2(0., 0.), dvec2(1., 0.), dvec2(0., 1.)])?;
+    /// let style = DomainStyle { coordinate: Some(3), ..DomainStyle::default() };
+    /// let error = domain_picture(&Coordinates::mean_value(triangle)?, &style).unwrap_err();
+    /// assert_eq!(error, PlotError::NoSuch { what: "coordinate", index: 3, count: 3 });
+    /// # Ok::<(), casteljau_domain::DomainError>(())
+    /// ```
+    #[error("there is no {what} {index}: the shape has {count}, counted from 0")]
+    NoSuch {
+        /// `"coordinate"` or `"side"`.
+        what: &'static str,
+        /// Number given.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// A coordinate in the picture left the range of numbers.
+    #[error("a point of the picture is not finite")]
+    NotFinite,
+    /// The shape could not be evaluated.
+    #[error("{0}")]
+    Gb(#[from] GbError),
+    /// The domain could not be triangulated or its coordinates evaluated.
+    #[error("domain: {0}")]
+    Domain(#[from] DomainError),
+}
