@@ -1,8 +1,19 @@
 //! Harmonic coordinates by certified least squares in analytic functions.
 //!
 //! λ_i is the harmonic function on the polygon that is linear on every side, 1 at vertex i and 0 at the others. It is
-//! the real part of an analytic function, which is sought in a span of functions made for the polygon (see `basis`);
-//! the residual on the boundary bounds the error inside by the maximum principle.
+//! the real part of an analytic function F_i, sought in a span of functions made for the polygon (`basis`): a
+//! polynomial, the functions that carry the singularities of the corners, and poles where the outside is narrow.
+//!
+//! Where one span does not serve the whole polygon, chords cut it into cells (`cut`), each with a span of its own; the
+//! functions of neighbouring cells are fitted to each other along their chord, real and imaginary part. All this is
+//! one least-squares problem with a block of unknowns a cell (`solve`). Its residual tells which cells to enrich or to
+//! cut next (`fit`).
+//!
+//! **Certificate.** With one cell, the maximum principle bounds the error inside by the residual on the boundary. With
+//! more, F jumps by δ across the chords; a Cauchy integral of δ mends that and is of the size of δ. The certificate is
+//! twice the largest residual at samples apart from those of the fit, plus twice the largest jump of every chord, plus
+//! a bound on the rounding of the evaluation, u·(10 + √N)·Σ|c||φ|. The factors 2 stand for what lies between the
+//! samples, and for the constant of the Cauchy integral.
 //!
 //! Sources: Gopal and Trefethen, *Solving Laplace problems with corner singularities via rational functions*, SIAM J.
 //! Numer. Anal. 57 (2019); Costa and Trefethen, *AAA-least squares rational approximation and solution of Laplace
@@ -61,7 +72,7 @@ impl HarmonicOptions {
 }
 
 impl Default for HarmonicOptions {
-    /// A target of 1e-8, at least 1e-7.
+    /// A target of 1e-8, and 1e-7 at the least.
     fn default() -> Self {
         Self { target: 1e-8, limit: 1e-7 }
     }
