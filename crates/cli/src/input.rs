@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{Read, Write};
 use std::path::Path;
 
+use casteljau::domain::HarmonicOptions;
 use casteljau::gb::ConcavePatch;
 use casteljau::io::model::{Model, NamedShape};
 use casteljau::io::{IoError, MAX_FILE_BYTES, ModelFormat, read_model_bytes, read_model_file};
@@ -28,6 +29,10 @@ pub struct Input {
 impl Input {
     /// Reads the model and picks the shape, or all. Warnings go to standard error.
     pub fn read(selection: &Selection) -> Result<Self, Failure> {
+        let least = HarmonicOptions::LEAST_TARGET;
+        if let Some(accuracy) = selection.accuracy.filter(|x| !(least..=1.0).contains(x)) {
+            return Err(Failure::Usage(format!("--accuracy must be {least:e} to 1, not {accuracy:e}")));
+        }
         let name = if is_dash(&selection.model) {
             STANDARD_INPUT.into()
         } else {

@@ -36,6 +36,12 @@ struct Report {
 }
 
 pub fn run(options: &Mesh, json: bool) -> Result<(), Failure> {
+    if let Some(tolerance) = options.tolerance.filter(|x| !(x.is_finite() && *x > 0.0)) {
+        return Err(Failure::Usage(format!("--tolerance must be a number above 0, not {tolerance}")));
+    }
+    if options.resolution == Some(0) {
+        return Err(Failure::Usage("--resolution must be 1 or more".into()));
+    }
     let format = match is_dash(&options.output) {
         true => named(options.format),
         false => MeshFormat::of_path(&options.output)?,

@@ -1,7 +1,9 @@
 //! `casteljau plot`: pictures.
 
 use casteljau::gb::ConcavePatch;
-use casteljau::plot::{DomainStyle, Isolines, PatchStyle, Shading, View, domain_picture, patch_picture};
+use casteljau::plot::{
+    DomainStyle, Isolines, PatchStyle, PlotError, Shading, View, domain_picture, patch_picture,
+};
 
 use crate::arguments::{IsolinesName, Plot, ShadingName, ViewName};
 use crate::failure::Failure;
@@ -23,7 +25,10 @@ pub fn run(options: &Plot) -> Result<(), Failure> {
             )));
         }
     };
-    let picture = picture.map_err(|error| Failure::Bad(format!("{}: {error}", input.name)))?;
+    let picture = picture.map_err(|error| match error {
+        PlotError::Option { .. } => Failure::Usage(error.to_string()),
+        _ => Failure::Bad(format!("{}: {error}", input.name)),
+    })?;
     write(&options.output, |out| Ok(out.write_all(picture.as_bytes())?))
 }
 

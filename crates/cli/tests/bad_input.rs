@@ -111,7 +111,22 @@ fn nets_that_are_no_patches() {
 }
 
 #[test]
-fn negative_degree_in_a_cgb() {
+fn a_patch_of_numbers_alone() {
+    let triangle = "1 0\n0.2 0\n3\n0 0 0\n1 1 0 0 0 1 0 0\n1 1 1 0 0 0 1 0\n1 1 0 1 0 0 0 0\n";
+    let (_folder, name) = file("whole.cgb", triangle.as_bytes());
+    casteljau(&["info", &name]).good();
+    let with = |line: &str, instead: &str| triangle.replacen(line, instead, 1);
+    refused("degree.cgb", with("1 1 1 0 0", "-1 1 1 0 0").as_bytes(), &[":6: side 1: degree -1"]);
+    refused("gap.cgb", with("1 1 1 0 0", "1 1 1 0.5 0").as_bytes(), &[":6: side 0 ends"]);
+    refused("nan.cgb", with("0 1 0 0\n", "0 1 nan 0\n").as_bytes(), &[":5: side 0", "not finite"]);
+    refused("cut.cgb", &triangle.as_bytes()[..triangle.len() - 8], &[":3: 3 sides are promised"]);
+    refused("dilated.cgb", with("0.2 0", "0.2 0.1").as_bytes(), &[":2: a dilation of 0.1"]);
+    // What is no fault of a ribbon is placed where the patch begins.
+    refused("weight.cgb", with("1 0", "2 0").as_bytes(), &[":1: center_weight"]);
+}
+
+#[test]
+fn damaged_published_models() {
     let Some(folder) = shared_models() else { return };
     let text = std::fs::read_to_string(folder.join("L.cgb")).unwrap();
     refused("half.cgb", &text.as_bytes()[..text.len() / 2], &["the file ends where"]);
@@ -144,7 +159,7 @@ fn files_that_cannot_be_read_or_written() {
 #[test]
 fn an_older_file_survives_what_goes_wrong() {
     let (folder, out) = file("l.obj", b"mine");
-    casteljau(&["mesh", &model("l.json"), "-o", &out, "--tolerance", "0"]).bad(1, &["tolerance"]);
+    casteljau(&["mesh", &model("l.json"), "-o", &out, "--tolerance", "0"]).bad(2, &["--tolerance"]);
     casteljau(&["mesh", &model("l.json"), "-o", &out, "--tolerance", "1e-6", "--max-vertices", "1000"])
         .bad(1, &["1000 are allowed"]);
     assert_eq!(std::fs::read(&out).unwrap(), b"mine");
@@ -196,10 +211,16 @@ fn command_lines_that_make_no_sense() {
     casteljau(&["plot", &l, "-o", "-", "--isolines", "6"]).bad(1, &["there is no side 6"]);
     casteljau(&["plot", &l, "-o", "-", "--domain", "--coordinate", "6"])
         .bad(1, &["there is no coordinate 6"]);
-    casteljau(&["plot", &l, "-o", "-", "--triangles", "1000000000"]).bad(1, &["number of triangles"]);
+    casteljau(&["plot", &l, "-o", "-", "--triangles", "1000000000"]).bad(2, &["number of triangles"]);
     casteljau(&["mesh", &l, "-o", "-", "--resolution", "1000000000"]).bad(1, &["l.json"]);
-    casteljau(&["mesh", &l, "-o", "-", "--resolution", "0"]).bad(1, &["resolution"]);
-    casteljau(&["mesh", &l, "-o", "-", "--tolerance", "-1"]).bad(1, &["tolerance"]);
+    casteljau(&["mesh", &l, "-o", "-", "--resolution", "0"]).bad(2, &["--resolution"]);
+    for wrong in ["-1", "0", "nan", "inf"] {
+        casteljau(&["mesh", &l, "-o", "-", "--tolerance", wrong]).bad(2, &["--tolerance"]);
+    }
+    for wrong in ["-1", "0", "nan", "inf", "2", "1e-13"] {
+        let accuracy = format!("--accuracy={wrong}");
+        casteljau(&["info", &l, &accuracy]).bad(2, &["--accuracy"]);
+    }
 }
 
 #[test]

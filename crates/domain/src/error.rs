@@ -151,7 +151,7 @@ pub enum DomainError {
     },
     /// Harmonic coordinates could not be had to the wanted accuracy.
     #[error(
-        "harmonic coordinates were reached to {reached:.1e} only, wanted {limit:.1e}: the polygon is too thin, too folded or has too short sides"
+        "harmonic coordinates were reached to {reached:.1e} only, wanted {limit:.1e}: the polygon is too thin, too folded, or has too short or too many sides"
     )]
     HarmonicAccuracy {
         /// The least certificate found.

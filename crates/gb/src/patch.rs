@@ -59,7 +59,8 @@ pub struct CornerPoint {
 /// `α_i = h_{i−1}^p/(h_{i−1}^p+h_i^p)`, `β_i = h_{i+1}^p/(h_{i+1}^p+h_i^p)`. Side i runs from domain vertex i−1 to vertex i.
 ///
 /// On a side and at a corner λ is known exactly and the patch is the ribbon's curve to rounding. Inside, an error of λ up
-/// to the coordinates' certificate moves the surface by at most 4·max(d, 2l−1)·certificate·size. The formula has no
+/// to the coordinates' certificate moves the surface by at most 4·max(d, 2l−1)·certificate·size; sides of one layer, which
+/// fade only linearly, may add 2·certificate·size each, which matters from some twelve sides on. The formula has no
 /// threshold. Which continuity with the ribbons it keeps is answered by [`ConcavePatch::continuity`].
 ///
 /// Cost: that of λ, plus about 0.1 µs a point for a cubic six-sided patch of two layers.
@@ -264,7 +265,7 @@ impl ConcavePatch {
         checked(location, self.sides())
     }
 
-    fn overflow(&self, location: Location) -> GbError {
+    pub(crate) fn overflow(&self, location: Location) -> GbError {
         GbError::Overflow { uv: self.domain().at(location).unwrap_or(DVec2::NAN) }
     }
 

@@ -6,7 +6,6 @@ use pulp::{Arch, Simd, WithSimd};
 use crate::formula::{Net, surface, surface_jet};
 use crate::jet::{First, Second};
 use crate::normal::unit;
-
 use crate::scalar::{LANES, Vector};
 use crate::{ConcavePatch, GbError};
 
@@ -201,17 +200,18 @@ impl ConcavePatch {
     /// two layers on one thread with AVX2; no allocation but a list of chunks.
     ///
     /// # Errors
-    /// Samples of another number of sides, a buffer of a wrong length.
+    /// Samples of another number of sides, a buffer of a wrong length; a point that is not finite, as where
+    /// [`Location::Inside`] was said of a place that is not inside.
     pub fn evaluate_samples(&self, samples: &SampleSet, out: &mut [DVec3]) -> Result<(), GbError> {
         samples.check(self, 0)?;
         check_length("the buffer of points", samples.len(), out.len())?;
         let net = self.net();
         let rows = samples.rows().chunks(CHUNK / LANES * samples.stride());
-        let job = |(rows, out): (&[f64], &mut [DVec3])| -> Result<(), GbError> {
-            Arch::new().dispatch(Values { net, stride: samples.stride(), rows, out });
-            Ok(())
-        };
-        each_chunk(rows.zip(out.chunks_mut(CHUNK)).collect(), job)
+        let chunks = rows.zip(samples.locations().chunks(CHUNK)).zip(out.chunks_mut(CHUNK)).collect();
+        each_chunk(chunks, |((rows, locations), out): ((&[f64], &[Location]), &mut [DVec3])| {
+            Arch::new().dispatch(Values { net, stride: samples.stride(), rows, out: &mut *out });
+            self.refuse_overflow(locations, out.iter().map(|point| point.is_finite()))
+        })
     }
 
     /// Points and unit normals of the patch at fixed samples of order 1 or more.
@@ -235,20 +235,28 @@ impl ConcavePatch {
         let chunks = rows.zip(samples.locations().chunks(CHUNK)).zip(out).collect();
         each_chunk(chunks, |((rows, locations), (points, normals))| {
             let stride = samples.stride();
-            Arch::new().dispatch(Normals { net, stride, rows, sign, points, normals: &mut *normals });
+            Arch::new().dispatch(Normals {
+                net,
+                stride,
+                rows,
+                sign,
+                points: &mut *points,
+                normals: &mut *normals,
+            });
             for (normal, &location) in normals.iter_mut().zip(locations) {
                 if !matches!(location, Location::Inside(_)) {
                     *normal = self.normal_at(location).unwrap_or(DVec3::ZERO);
                 }
             }
-            Ok(())
+            self.refuse_overflow(locations, points.iter().map(|point| point.is_finite()))
         })
     }
 
     /// Jets of the patch at fixed samples of order 2.
     ///
     /// # Errors
-    /// As [`evaluate_samples`](Self::evaluate_samples), samples without derivatives, and a corner among the samples.
+    /// As [`evaluate_samples`](Self::evaluate_samples), samples without derivatives, a corner among the samples, and
+    /// derivatives beyond the range of f64.
     pub fn evaluate_sample_jets(&self, samples: &SampleSet, out: &mut [SurfaceJet]) -> Result<(), GbError> {
         samples.check(self, 2)?;
         check_length("the buffer of jets", samples.len(), out.len())?;
@@ -259,11 +267,23 @@ impl ConcavePatch {
         }
         let net = self.net();
         let rows = samples.rows().chunks(CHUNK / LANES * samples.stride());
-        let job = |(rows, out): (&[f64], &mut [SurfaceJet])| -> Result<(), GbError> {
-            Arch::new().dispatch(Jets { net, stride: samples.stride(), rows, out });
-            Ok(())
-        };
-        each_chunk(rows.zip(out.chunks_mut(CHUNK)).collect(), job)
+        let chunks = rows.zip(samples.locations().chunks(CHUNK)).zip(out.chunks_mut(CHUNK)).collect();
+        each_chunk(chunks, |((rows, locations), out): ((&[f64], &[Location]), &mut [SurfaceJet])| {
+            Arch::new().dispatch(Jets { net, stride: samples.stride(), rows, out: &mut *out });
+            self.refuse_overflow(locations, out.iter().map(SurfaceJet::is_finite))
+        })
+    }
+
+    /// Names the first sample whose result is not finite.
+    fn refuse_overflow(
+        &self,
+        locations: &[Location],
+        mut finite: impl Iterator<Item = bool>,
+    ) -> Result<(), GbError> {
+        match finite.position(|finite| !finite).and_then(|i| locations.get(i)) {
+            Some(&location) => Err(self.overflow(location)),
+            None => Ok(()),
+        }
     }
 }
 

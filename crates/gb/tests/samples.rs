@@ -3,7 +3,7 @@
 
 mod common;
 
-use casteljau_gb::glam::{DVec3, dvec3};
+use casteljau_gb::glam::{DVec3, dvec2, dvec3};
 use casteljau_gb::{
     BlendMatrix, CenterWeight, ConcavePatch, CoordinateKind, GbError, Location, SampleSet, SurfaceJet,
 };
@@ -114,6 +114,24 @@ fn editing() {
         let sum: f64 = (0..matrix.columns()).map(|c| matrix.weight(row, c).unwrap()).sum();
         assert!((sum - 1.0).abs() < 1e-14, "row {row}");
     }
+}
+
+/// A place that is not inside, though it was said to be, gives the error of the single evaluation and no NaN.
+#[test]
+fn no_silent_infinities() {
+    let polygon = l_shape();
+    let ribbons = ribbons_over(&polygon, &[(3, 2)]);
+    let patch = ConcavePatch::builder(ribbons).domain(polygon).build().unwrap();
+    let zero = DVec3::ZERO;
+    let empty = SurfaceJet { point: zero, du: zero, dv: zero, duu: zero, duv: zero, dvv: zero };
+    let (inner, concave, far) = (dvec2(0.5, 0.5), dvec2(1.0, 1.0), dvec2(1e200, 1.0));
+    let set = |at| SampleSet::new(patch.coordinates(), &[inner, at].map(Location::Inside), 2).unwrap();
+    let found = patch.evaluate_sample_jets(&set(concave), &mut [empty; 2]);
+    assert!(matches!(found, Err(GbError::Overflow { uv }) if uv == concave), "{found:?}");
+    let found = patch.evaluate_samples(&set(far), &mut [zero; 2]);
+    assert!(matches!(found, Err(GbError::Overflow { uv }) if uv == far), "{found:?}");
+    let found = patch.evaluate_sample_normals(&set(far), &mut [zero; 2], &mut [zero; 2]);
+    assert!(matches!(found, Err(GbError::Overflow { uv }) if uv == far), "{found:?}");
 }
 
 #[test]

@@ -98,8 +98,7 @@ pub fn write(record: &GbPatchRecord, tolerance: f64, out: &mut (impl Write + ?Si
     if record.blend_power != crate::record::DEFAULT_BLEND_POWER {
         return unwritable(format!("blend power {}", record.blend_power));
     }
-    // A tolerance of 0 could not be told from the dilation, and it must come back as it is.
-    if !tolerance.is_finite() || tolerance == 0.0 {
+    if !tolerance.is_finite() {
         return unwritable(format!("the tolerance {tolerance}"));
     }
     let weight = match record.center_weight {

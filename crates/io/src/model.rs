@@ -161,9 +161,10 @@ impl NamedShape {
                         [Step::Field("ribbons"), Step::Index(side), ..] => ribbons.get(*side).copied(),
                         _ => None,
                     };
-                    // These files have no names for their parts: those of the model file say what is meant.
+                    // These files have no names for their parts: those of the model file say what is meant. What is no
+                    // ribbon is said of the whole, which begins on line 1.
                     let path = if line.is_none() { path_text(part) } else { String::new() };
-                    Place { line, path, ..Place::file(file) }
+                    Place { path, ..Place::line(file, line.unwrap_or(1)) }
                 }
             },
         }

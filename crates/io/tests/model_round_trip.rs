@@ -48,12 +48,12 @@ proptest! {
         let center = Some(record.center.unwrap_or([0.1, -0.0, 1e300]));
         let record =
             GbPatchRecord { layout, center, coordinates: CoordinatesName::Harmonic, blend_power: 2, ..record };
-        let tolerance = if tolerance == 0.0 { 0.2 } else { tolerance };
         let mut text = Vec::new();
         cgb::write(&record, tolerance, &mut text).unwrap();
         let again = cgb::read(str::from_utf8(&text).unwrap(), "again.cgb").unwrap();
         prop_assert_eq!(bits(&again.record), bits(&record));
-        prop_assert_eq!(again.tolerance.to_bits(), tolerance.to_bits());
+        // The sign of a zero is lost to the dilation beside it.
+        prop_assert_eq!(again.tolerance, tolerance);
         prop_assert!(again.warnings.is_empty());
     }
 

@@ -106,7 +106,7 @@ impl Coordinates {
     /// polynomials and the corner functions r^(jπ/ω) sin(jπθ/ω), on the polygon or on the parts into which it is cut.
     /// Non-negative up to the certificate. Values are exact on the sides; Σ λᵢ = 1 and Σ λᵢvᵢ = x hold to rounding.
     /// Error: [`DomainError::HarmonicAccuracy`] where the certificate stays above `options.limit`;
-    /// [`DomainError::TooManySides`] above 256 sides; [`DomainError::BadOption`].
+    /// [`DomainError::TooManySides`] above 64 sides; [`DomainError::BadOption`].
     /// Cost: milliseconds for polygons of up to ten sides of like length, up to seconds for folded and thin ones.
     ///
     /// ```

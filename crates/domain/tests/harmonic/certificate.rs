@@ -1,11 +1,9 @@
 //! The certificate is honoured on the boundary, and reached on hard shapes.
 
-use std::time::Instant;
-
 use casteljau_domain::glam::{DVec2, dvec2};
 use casteljau_domain::{Coordinates, DomainError, HarmonicOptions, Polygon};
 
-use crate::shapes::{Solved, hard, hard_solved, long, plain, plain_solved, polygon, residual, slot};
+use crate::shapes::{Clock, Solved, hard, hard_solved, long, plain, plain_solved, polygon, residual, slot};
 use crate::support::Random;
 
 /// Random boundary points of one shape.
@@ -51,8 +49,8 @@ fn hard_shapes_reach_1e_7_and_keep_it_at_random_boundary_points() {
     for solved in hard_solved() {
         honoured(solved, &mut random);
         assert!(solved.coordinates.certificate() <= 1e-7, "{}", solved.name);
-        // The bar is 3 s; the machine may be busy with other tests.
-        assert!(solved.seconds < 20.0, "{} took {} s", solved.name, solved.seconds);
+        // 3 s; twice that with the checks of a test build and on busy cores.
+        assert!(solved.seconds < 6.0, "{} took {} s", solved.name, solved.seconds);
     }
     assert_eq!(hard_solved().len(), hard().len(), "some failed");
 }
@@ -95,10 +93,10 @@ fn worse_shapes_end_soon_with_a_typed_error() {
         ("fan of 80 corners", Polygon::new(fan).unwrap()),
     ];
     for (name, polygon) in worse {
-        let start = Instant::now();
+        let clock = Clock::start();
         let options = HarmonicOptions::default();
         let answer = Coordinates::harmonic(polygon, &options);
-        let seconds = start.elapsed().as_secs_f64();
+        let seconds = clock.seconds();
         match answer {
             Ok(c) => {
                 println!("{name:20} {seconds:6.2} s  certificate {:.1e}", c.certificate());
@@ -112,7 +110,7 @@ fn worse_shapes_end_soon_with_a_typed_error() {
             }
             Err(other) => panic!("{name}: {other}"),
         }
-        assert!(seconds < 30.0, "{name} took {seconds} s");
+        assert!(seconds < 10.0, "{name} took {seconds} s");
     }
 }
 

@@ -1,12 +1,11 @@
 //! Polygons drawn at random, nearly degenerate ones among them.
 
 use std::f64::consts::TAU;
-use std::time::Instant;
 
 use casteljau_domain::glam::{DVec2, dvec2};
 use casteljau_domain::{Coordinates, DomainError, HarmonicOptions, Polygon};
 
-use crate::shapes::{long, points, residual};
+use crate::shapes::{Clock, long, points, residual};
 use crate::support::{Random, convex, wild};
 
 /// A ring of unevenly spread corners with mild radii: the usual domain of a patch.
@@ -35,13 +34,14 @@ fn squeezed(random: &mut Random, n: usize) -> Option<Polygon> {
     Polygon::new(vertices).ok()
 }
 
+/// One in twelve is nearly degenerate in the normal run, since each of these takes seconds; one in four in the long one.
 fn any(random: &mut Random) -> Option<(&'static str, Polygon)> {
     let n = 3 + random.below(6);
-    let (kind, polygon) = match random.below(8) {
+    let (kind, polygon) = match random.below(if long() { 8 } else { 24 }) {
         0 => ("wild", wild(random, n)),
         1 => ("squeezed", squeezed(random, n)),
-        2 => ("grid", grid(random, n)),
-        3 => ("convex", convex(random, n)),
+        2 | 3 => ("grid", grid(random, n)),
+        4 => ("convex", convex(random, n)),
         _ => ("mild", mild(random, n)),
     };
     Some((kind, polygon?))
@@ -58,11 +58,15 @@ fn random_polygons_give_a_certified_result_or_a_typed_error() {
     while tried < wanted {
         let Some((kind, polygon)) = any(&mut random) else { continue };
         tried += 1;
-        let start = Instant::now();
+        let clock = Clock::start();
         let answer = Coordinates::harmonic(polygon.clone(), &options);
-        let seconds = start.elapsed().as_secs_f64();
+        let seconds = clock.seconds();
         if seconds > slowest.0 {
             slowest = (seconds, format!("{kind} {:?}", polygon.vertices()));
+        }
+        if seconds > 3.0 {
+            let outcome = answer.as_ref().map(Coordinates::certificate);
+            println!("{seconds:.1} s, {kind}, {outcome:?}: {:?}", polygon.vertices());
         }
         let (given, refused, time) = tally.entry(kind).or_insert((0, 0, 0.0));
         *time += seconds;
@@ -94,5 +98,5 @@ fn random_polygons_give_a_certified_result_or_a_typed_error() {
         println!("{kind:10} {given:5} given, {refused:4} refused, {seconds:7.2} s");
     }
     println!("slowest {:.2} s: {}", slowest.0, slowest.1);
-    assert!(slowest.0 < 30.0, "{} s for {}", slowest.0, slowest.1);
+    assert!(slowest.0 < 10.0, "{} s for {}", slowest.0, slowest.1);
 }

@@ -16,7 +16,7 @@ const CORNER: usize = 4;
 pub fn read(text: &str, file: &str) -> Result<CgbFile, IoError> {
     let mut words = Words::new(text, file);
     if words.left == 0 {
-        return Err(IoError::invalid(Place::file(file), Reason::Empty));
+        return Err(IoError::invalid(Place::line(file, 1), Reason::Empty));
     }
     let code = words.integer(|| "the weight of the central point".into())?;
     let center_weight = match code {

@@ -32,7 +32,7 @@ const KINDS_NOT_YET: [&str; 11] = [
 /// Name and description of every shape.
 pub(super) fn read(text: &str, file: &str) -> Result<Vec<(Option<String>, GbPatchRecord)>, IoError> {
     if text.trim_ascii().is_empty() {
-        return Err(IoError::invalid(Place::file(file), Reason::Empty));
+        return Err(IoError::invalid(Place::line(file, 1), Reason::Empty));
     }
     check_head(text, file)?;
     let document: Object<Document> = parse(text).map_err(|fault| fault.into_error(file))?;
@@ -106,6 +106,13 @@ impl Fault {
         let message = self.error.to_string();
         let (line, column) = (self.error.line(), self.error.column());
         let message = message.strip_suffix(&format!(" at line {line} column {column}")).unwrap_or(&message);
+        // What a person calls the types that serde names.
+        let words = [("f64", "a number"), ("u32", "an integer from 0 up"), ("usize", "an integer from 0 up")];
+        let plain = words.iter().find_map(|(name, word)| {
+            let start = message.strip_suffix(name)?;
+            start.ends_with(", expected ").then(|| format!("{start}{word}"))
+        });
+        let message = plain.as_deref().unwrap_or(message);
         let place = Place {
             file: file.into(),
             line: Some(line.max(1)),

@@ -55,9 +55,9 @@ pub(super) const LEVELS: [Level; 5] = [
 ];
 
 /// Other corners nearer than this part of the cell's diameter make a corner crowded.
-const CROWDED: f64 = 0.2;
+const CROWDED: f64 = 0.10;
 /// Corners beside the cell take part up to this distance, in diameters of the cell.
-const REACH: f64 = 0.7;
+const REACH: f64 = 0.35;
 
 /// Most poles of a cell.
 const MOST_POLES: usize = 240;
@@ -327,6 +327,12 @@ fn exp(z: Complex64) -> Complex64 {
     let (sin, cos) = z.im.sin_cos();
     let r = z.re.exp();
     Complex64::new(r * cos, r * sin)
+}
+
+/// Singular corners of a cell that have another corner near, measured by the size of the cell.
+pub(super) fn crowded_corners(outline: &Outline, cell: &Cell) -> usize {
+    let near = CROWDED * cell.diameter();
+    cell.corners.iter().flatten().filter(|&&c| outline.is_singular(c) && outline.gaps[c] < near).count()
 }
 
 /// One complex unknown is two real ones: the function, and i times it.

@@ -11,6 +11,8 @@ use super::{
 const MOST_ENDS: usize = 240;
 /// A chord closer to a corner than this part of its own length is not worth having.
 const LEAST_CLEARANCE: f64 = 0.1;
+/// The same where there is nothing better.
+const CLOSEST: f64 = 0.01;
 /// Beyond this part of its length more distance from the corners does not make a chord better.
 const MOST_CLEARANCE: f64 = 0.5;
 /// Chords of a lower score are not used.
@@ -30,6 +32,15 @@ pub(super) fn best_chord(outline: &Outline, cell: &Cell) -> Option<(EdgePoint, E
         let share = left.area().min(right.area()) / area;
         let fatness = left.fatness().min(right.fatness());
         clearance * (fatness / 0.25).clamp(0.0, 1.0) * (share / 0.25).clamp(0.0, 1.0).powf(0.25)
+    })
+}
+
+/// The chord that parts the corners of a cell most evenly, for cells with many of them; it may pass them closely.
+pub(super) fn middle_chord(outline: &Outline, cell: &Cell) -> Option<(EdgePoint, EdgePoint)> {
+    let corners = |part: &Cell| part.corners.iter().flatten().count() as f64;
+    let half = 0.5 * corners(cell);
+    best(outline, cell, f64::INFINITY, CLOSEST, |clearance, left, right| {
+        clearance * (corners(left).min(corners(right)) / half).min(1.0)
     })
 }
 
@@ -126,7 +137,7 @@ fn best(
             best = (score, Some((*p, *q)));
         }
     }
-    best.1.filter(|_| best.0 >= LEAST_SCORE)
+    best.1.filter(|_| best.0 >= LEAST_SCORE.min(least))
 }
 
 /// Distance of the segment from the nearest corner; a lower one than `enough` may be any value below it.

@@ -1,9 +1,9 @@
 //! The adaptive fit: solve, look where the residual is large, enlarge the basis or cut the cell there, solve again.
 
 use super::{
-    basis::{Basis, LEVELS, Site},
+    basis::{Basis, LEVELS, Site, crowded_corners},
     cell::{Cell, EdgePoint},
-    cut::{best_chord, gap_chord, neck_chord},
+    cut::{best_chord, gap_chord, middle_chord, neck_chord},
     evaluate::Part,
     outline::Outline,
     reproduce::Reproduction,
@@ -17,6 +17,8 @@ const CUT_ABOVE: [f64; LEVELS.len()] = [3e-5, 3e-6, 3e-7, 0.0, 0.0];
 const FIRST_LEVEL: usize = 1;
 /// Cells thinner than this are cut before anything is tried.
 const THIN: f64 = 0.12;
+/// Cells with more crowded corners than this are cut before anything is tried.
+const MOST_CROWDED: usize = 6;
 /// Most cells.
 const MOST_CELLS: usize = 96;
 /// Most solves.
@@ -66,11 +68,11 @@ impl Check {
 pub(super) fn fit(outline: &Outline, reproduction: &Reproduction, target: f64, limit: f64) -> Fit {
     let mut patches = vec![Patch { cell: Cell::whole(outline), level: FIRST_LEVEL, whole: false }];
     let mut chords = 0;
-    cut_thin(outline, &mut patches, &mut chords);
+    cut_early(outline, &mut patches, &mut chords);
     let mut best = Fit { parts: Vec::new(), certificate: f64::INFINITY, boundary_residual: f64::INFINITY };
     let (mut work, mut stale) = (0.0, 0);
     for _ in 0..MOST_ROUNDS {
-        let (parts, cost) = solve(outline, &patches);
+        let Some((parts, cost)) = solve(outline, &patches, MOST_WORK - work) else { break };
         let levels: Vec<usize> = patches.iter().map(|p| p.level).collect();
         let check = check(outline, reproduction, &parts, &levels);
         let certificate = check.certificate();
@@ -81,28 +83,27 @@ pub(super) fn fit(outline: &Outline, reproduction: &Reproduction, target: f64, l
         }
         let tired = stale >= MOST_STALE && work > PATIENCE;
         let enough = best.certificate <= target || (best.certificate <= limit && tired);
-        if enough || work > MOST_WORK {
-            break;
-        }
-        if !enlarge(outline, &mut patches, &mut chords, &check, target) {
+        if enough || !enlarge(outline, &mut patches, &mut chords, &check, target) {
             break;
         }
     }
     best
 }
 
-/// Cuts thin cells and cuts off narrow arms before anything is tried.
-fn cut_thin(outline: &Outline, patches: &mut Vec<Patch>, chords: &mut usize) {
+/// Cuts thin cells, cells with many crowded corners, narrow arms and the walls of narrow gaps apart before anything is
+/// tried.
+fn cut_early(outline: &Outline, patches: &mut Vec<Patch>, chords: &mut usize) {
     let mut at = 0;
     while at < patches.len() && patches.len() < MOST_CELLS {
         let cell = &patches[at].cell;
-        let thin = if cell.fatness() < THIN && cell.len() > 3 {
+        let chord = if cell.fatness() < THIN && cell.len() > 3 {
             best_chord(outline, cell)
+        } else if crowded_corners(outline, cell) > MOST_CROWDED {
+            middle_chord(outline, cell)
         } else {
             neck_chord(outline, cell)
         };
-        let chord = thin.or_else(|| gap_chord(outline, cell));
-        match chord {
+        match chord.or_else(|| gap_chord(outline, cell)) {
             Some(chord) => split(patches, at, &chord, chords),
             None => at += 1,
         }
@@ -157,8 +158,8 @@ fn enlarge(
     acted
 }
 
-/// One least-squares solve, and what it cost: rows by the square of columns.
-fn solve(outline: &Outline, patches: &[Patch]) -> (Vec<Part>, f64) {
+/// One least-squares solve, and what it cost: rows by the square of columns. None where that is above `budget`.
+fn solve(outline: &Outline, patches: &[Patch], budget: f64) -> Option<(Vec<Part>, f64)> {
     let n = outline.len();
     let cells: Vec<Cell> = patches.iter().map(|p| p.cell.clone()).collect();
     let bases: Vec<Basis> = patches
@@ -199,10 +200,13 @@ fn solve(outline: &Outline, patches: &[Patch]) -> (Vec<Part>, f64) {
         });
     }
     let cost = system.cost();
+    if cost > budget {
+        return None;
+    }
     let solution = system.solve();
 
     let parts = cells.into_iter().zip(bases).zip(&solution);
-    (parts.map(|((cell, basis), x)| Part::new(cell, basis, x, n)).collect(), cost)
+    Some((parts.map(|((cell, basis), x)| Part::new(cell, basis, x, n)).collect(), cost))
 }
 
 /// Residuals at samples apart from those of the fit.

@@ -90,8 +90,8 @@ pub(super) struct HarmonicCoordinates {
 }
 
 impl HarmonicCoordinates {
-    /// Most sides; the work grows with their square.
-    const MOST_SIDES: usize = 256;
+    /// Most sides; polygons with more than some thirty corners of like weight are rarely reached.
+    const MOST_SIDES: usize = 64;
 
     /// Fits the coordinates of all vertices.
     pub(super) fn new(polygon: &Polygon, options: &HarmonicOptions) -> Result<Self, DomainError> {

@@ -1,0 +1,1 @@
+//! Models and polygons shared by the benchmarks.
