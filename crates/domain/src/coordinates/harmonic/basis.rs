@@ -59,6 +59,8 @@ const CROWDED: f64 = 0.10;
 /// Corners beside the cell take part up to this distance, in diameters of the cell.
 const REACH: f64 = 0.35;
 
+/// Offsets from a corner are at least this long; two divisions by it stay within f64.
+const LEAST_OFFSET: f64 = 1e-60;
 /// Most poles of a cell.
 const MOST_POLES: usize = 240;
 
@@ -76,10 +78,16 @@ impl Site {
         Self { z, near: [(usize::MAX, Complex64::ZERO); 2] }
     }
 
+    /// z − c, never 0: at the corner itself the derivatives are finite numbers, if without meaning.
     fn offset(&self, corner: usize, c: Complex64) -> Complex64 {
-        match self.near.iter().find(|(k, _)| *k == corner) {
+        let offset = match self.near.iter().find(|(k, _)| *k == corner) {
             Some((_, offset)) => *offset,
             None => self.z - c,
+        };
+        if offset.norm_sqr() < LEAST_OFFSET * LEAST_OFFSET {
+            Complex64::new(LEAST_OFFSET, 0.0)
+        } else {
+            offset
         }
     }
 }

@@ -22,7 +22,7 @@ const MOST_CROWDED: usize = 6;
 /// Most cells.
 const MOST_CELLS: usize = 96;
 /// Most solves.
-const MOST_ROUNDS: usize = 40;
+const MOST_ROUNDS: usize = 30;
 /// Rounds without progress, and work done, after which a fit that is good enough is taken.
 const MOST_STALE: usize = 4;
 const PATIENCE: f64 = 3e9;
@@ -238,9 +238,10 @@ fn check(outline: &Outline, reproduction: &Reproduction, parts: &[Part], levels:
             cells[c] = cells[c].max(jump);
         }
     }
-    // The sum of N products: each has the error of its function, some ten roundings, and of the addition.
+    // The sum of N products: each has the error of its function, some ten roundings, and of the addition. The map that
+    // makes Σλ and Σλv exact adds a few roundings for each of the n values.
     let longest = parts.iter().map(|p| p.basis().len()).max().unwrap_or(0) as f64;
-    let rounding = 0.5 * f64::EPSILON * (10.0 + longest.sqrt()) * magnitude;
+    let rounding = 0.5 * f64::EPSILON * ((10.0 + longest.sqrt()) * magnitude + 32.0 * n as f64);
     if !boundary.is_finite() || !jumps.is_finite() {
         cells.iter_mut().filter(|c| !c.is_finite()).for_each(|c| *c = f64::INFINITY);
     }

@@ -12,7 +12,7 @@
 //! **Certificate.** With one cell, the maximum principle bounds the error inside by the residual on the boundary. With
 //! more, F jumps by δ across the chords; a Cauchy integral of δ mends that and is of the size of δ. The certificate is
 //! twice the largest residual at samples apart from those of the fit, plus twice the largest jump of every chord, plus
-//! a bound on the rounding of the evaluation, u·(10 + √N)·Σ|c||φ|. The factors 2 stand for what lies between the
+//! a bound on the rounding of the evaluation, u·((10 + √N)·Σ|c||φ| + 32n). The factors 2 stand for what lies between the
 //! samples, and for the constant of the Cauchy integral.
 //!
 //! Sources: Gopal and Trefethen, *Solving Laplace problems with corner singularities via rational functions*, SIAM J.

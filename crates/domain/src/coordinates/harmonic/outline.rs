@@ -92,10 +92,11 @@ impl Outline {
     /// Whether harmonic functions with linear boundary values have a singularity at corner k.
     ///
     /// They behave there like r^(jπ/ω); where π/ω is an integer of 2 or more all of these are polynomials, and where it
-    /// is 1 a change of slope brings in r log r.
+    /// is 1 a change of slope brings in r log r. In very sharp corners r^(π/ω) is nothing at all.
     pub(super) fn is_singular(&self, k: usize) -> bool {
         let alpha = std::f64::consts::PI / self.angles[k];
-        (alpha - alpha.round()).abs() > 1e-9 || alpha < 1.5
+        let smooth = (alpha - alpha.round()).abs() < 1e-9 && alpha > 1.5;
+        alpha < 24.0 && !smooth
     }
 
     /// Direction of the side that leaves corner k.
