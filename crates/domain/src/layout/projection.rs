@@ -66,7 +66,7 @@ pub fn projection(
         if let Some(layout) = accept(&outline, kinds, required) {
             return Ok(Layout { repaired: attempt > 0, ..layout });
         }
-        near.get_or_insert_with(|| Shape::of(&outline));
+        near.get_or_insert_with(|| Shape::of_kinds(&outline, kinds));
     }
     repair(&near.unwrap_or_else(|| chords(&points, area, concave)), required)
 }

@@ -102,6 +102,19 @@ impl Shape {
         Self { turning, log_lengths: (0..n).map(|i| side(i).length().ln()).collect() }
     }
 
+    /// As [`Shape::of`], with the corners convex and concave as they are known to be: near ±π rounding decides the sign.
+    pub(super) fn of_kinds(vertices: &[DVec2], concave: &[bool]) -> Self {
+        let mut shape = Self::of(vertices);
+        for (turning, &concave) in shape.turning.iter_mut().zip(concave) {
+            if concave {
+                *turning = -turning.abs().max(2.0 * STRAIGHT);
+            } else if *turning < -STRAIGHT {
+                *turning = -*turning;
+            }
+        }
+        shape
+    }
+
     fn blended(&self, other: &Self, blend: f64) -> Self {
         let mix =
             |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (1.0 - blend) * a + blend * b).collect();

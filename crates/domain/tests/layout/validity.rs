@@ -89,6 +89,21 @@ proptest! {
     }
 }
 
+/// A cusp beside an all but straight corner: rounding decides the sign of the cusp's turning angle.
+#[test]
+fn flags_hold_at_cusps() {
+    let corners = [
+        DVec3::new(1.0000000000000002, 2.0526577101717584e-7, 0.0),
+        DVec3::new(1.0, -0.748594957778198, 1.0000000000000002),
+        DVec3::new(1.0, 0.0, 0.0),
+        DVec3::new(1.0000000000000002, 0.45429889082633035, 0.0),
+    ]
+    .map(|p| p * 10f64.powf(-26.338026476633342));
+    let flags = [true, false, false, false];
+    let layout = layout::projection(&corners, Some(&flags), &LayoutOptions::default()).unwrap();
+    assert_eq!(layout.concave, flags);
+}
+
 /// Cusps everywhere, and lengths over 600 orders of magnitude.
 #[test]
 fn every_pattern_of_corners_has_a_polygon_for_the_worst_of_lengths() {
