@@ -6,20 +6,7 @@
 //! solve alone, a Householder factorization of r rows and c unknowns, r about 3c: (2r − 2c/3)·c² flops, 16 a cycle. The
 //! rounds before it, the rows themselves (a complex power series a row) and the check come on top.
 //!
-//! | polygon | 1e-8 | 1e-10 |
-//! | --- | --- | --- |
-//! | 4 dart | 17 | 17 |
-//! | 6 regular | 1.2 | 1.2 |
-//! | 6 L | 0.9 | 1.7 |
-//! | 8 regular | 2.2 | 2.4 |
-//! | 8 U | 7.6 | 31 |
-//! | 10 regular | 3.7 | 3.6 |
-//! | 10 star | 4.4 | 390 |
-//! | 6 thin L | 17 | 22 |
-//! | 8 slot | 370 | 860 |
-//! | 16 comb | 210 | 1290 |
-//!
-//! The goldens' medians: `cargo run --release -p casteljau-domain --example harmonic_bars`.
+//! The medians over the exact cases: `cargo run --release -p casteljau-domain --example harmonic_bars`.
 //!
 //! **Evaluation** (`harmonic evaluate`, nanoseconds a point; order 0, 1, 2 = values, gradients, second derivatives). The
 //! limit for c unknowns and n coordinates is c·m·k multiply-adds, m being n rounded up to a multiple of 8 and k = 1, 3, 5
