@@ -11,6 +11,7 @@ use casteljau::io::{IoError, MAX_FILE_BYTES, ModelFormat, read_model_bytes, read
 
 use crate::arguments::Selection;
 use crate::failure::Failure;
+use crate::progress::waiting;
 
 /// What standard input is called in messages.
 pub const STANDARD_INPUT: &str = "standard input";
@@ -68,7 +69,8 @@ impl Input {
         if let Some(accuracy) = self.accuracy {
             builder = builder.accuracy(accuracy);
         }
-        Ok(builder.build().map_err(|error| shape.placed(error))?)
+        let built = waiting("setting up the coordinates of the domain", || builder.build());
+        Ok(built.map_err(|error| shape.placed(error))?)
     }
 
     /// Shape `index` of the file as a person would call it.

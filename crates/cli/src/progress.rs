@@ -1,7 +1,8 @@
-//! A progress bar on a terminal, for work that takes over a second.
+//! A sign of life on a terminal, for work that takes over a second: a bar, or a spinner where no end is known.
 
 use std::io::IsTerminal;
 use std::ops::ControlFlow;
+use std::sync::mpsc;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -9,6 +10,28 @@ use indicatif::{ProgressBar, ProgressStyle};
 /// Work shorter than this shows nothing.
 const PATIENCE: Duration = Duration::from_secs(1);
 const STEPS: u64 = 1000;
+
+/// Runs `work`, whose end cannot be foretold, and shows a spinner beside `what` meanwhile.
+pub fn waiting<T>(what: &'static str, work: impl FnOnce() -> T) -> T {
+    if !std::io::stderr().is_terminal() {
+        return work();
+    }
+    let (done, is_done) = mpsc::channel::<()>();
+    std::thread::scope(|scope| {
+        scope.spawn(move || {
+            if is_done.recv_timeout(PATIENCE).is_err_and(|e| e == mpsc::RecvTimeoutError::Timeout) {
+                let spinner = ProgressBar::new_spinner().with_message(what).with_elapsed(PATIENCE);
+                spinner.enable_steady_tick(Duration::from_millis(100));
+                // Ends when `done` is dropped.
+                let _ = is_done.recv();
+                spinner.finish_and_clear();
+            }
+        });
+        // Dropped when `work` is over, even by a panic, so that the scope can end.
+        let _done = done;
+        work()
+    })
+}
 
 pub struct Progress {
     what: &'static str,

@@ -90,13 +90,13 @@ pub enum GbError {
         power: u32,
     },
     /// The centre has a weight but there is no centre.
-    #[error("the center weight {weight:?} needs a center")]
+    #[error("the center weight `{weight}` needs a center")]
     MissingCenter {
         /// The weight asked for.
         weight: crate::CenterWeight,
     },
     /// The weight of the centre would not vanish on the sides, so the patch would miss its own boundary.
-    #[error("the center weight {weight:?} does not vanish on the sides of a patch with {sides} sides")]
+    #[error("the center weight `{weight}` does not vanish on the sides of a patch with {sides} sides")]
     CenterWeightOnBoundary {
         /// The weight asked for.
         weight: crate::CenterWeight,

@@ -48,11 +48,11 @@ const BINOMIAL: [[f64; MAX_DEGREE + 1]; MAX_DEGREE + 1] = {
     table
 };
 
-/// `B_j^d = (d over j) x^j y^{d−j}` for x + y = 1: products of non-negative numbers, each right to 2d roundings.
+/// `B_j^d = (d over j) x^j y^{d−j}` for x + y = 1, into the first d + 1 places: products of non-negative numbers, each
+/// right to 2d roundings.
 #[inline(always)]
-pub(crate) fn along_basis<T: Scalar>(degree: usize, x: T, y: T) -> [T; MAX_DEGREE + 1] {
+pub(crate) fn along_basis<T: Scalar>(degree: usize, x: T, y: T, basis: &mut [T; MAX_DEGREE + 1]) {
     let d = degree.min(MAX_DEGREE);
-    let mut basis = [x.like(0.0); MAX_DEGREE + 1];
     let mut x_power = x;
     for j in 1..=d {
         basis[j] = x_power.scale(BINOMIAL[d][j]);
@@ -67,26 +67,23 @@ pub(crate) fn along_basis<T: Scalar>(degree: usize, x: T, y: T) -> [T; MAX_DEGRE
             y_power = y_power * y;
         }
     }
-    basis
 }
 
 /// The first l of `B_k^{2l−1}(h)`, with g = 1 − h given apart because it is known to more digits.
 #[inline(always)]
-fn across_basis<T: Scalar>(layers: usize, h: T, g: T) -> [T; MAX_LAYERS] {
-    let common = power(g, layers as u32);
-    across_from(layers, h, g, common)
+fn across_basis<T: Scalar>(layers: usize, h: T, g: T, basis: &mut [T; MAX_LAYERS]) {
+    across_from(layers, h, g, power(g, layers as u32), basis);
 }
 
 /// The first l of `B_k^{2l−1}(h)/(1 − h)^l`.
-pub(crate) fn across_ratio_basis<T: Scalar>(layers: usize, h: T, g: T) -> [T; MAX_LAYERS] {
-    across_from(layers, h, g, g.like(1.0))
+pub(crate) fn across_ratio_basis<T: Scalar>(layers: usize, h: T, g: T, basis: &mut [T; MAX_LAYERS]) {
+    across_from(layers, h, g, g.like(1.0), basis);
 }
 
 /// (2l−1 over k) h^k g^{l−1−k}·common, k < l.
 #[inline(always)]
-fn across_from<T: Scalar>(layers: usize, h: T, g: T, common: T) -> [T; MAX_LAYERS] {
+fn across_from<T: Scalar>(layers: usize, h: T, g: T, common: T, basis: &mut [T; MAX_LAYERS]) {
     let l = layers.clamp(1, MAX_LAYERS);
-    let mut basis = [h.like(0.0); MAX_LAYERS];
     let mut h_power = h;
     for k in 1..l {
         basis[k] = h_power.scale(BINOMIAL[2 * l - 1][k]);
@@ -101,7 +98,6 @@ fn across_from<T: Scalar>(layers: usize, h: T, g: T, common: T) -> [T; MAX_LAYER
             g_power = g_power * g;
         }
     }
-    basis
 }
 
 /// `B_1^{2l−1}(h)`.
@@ -137,6 +133,9 @@ pub(crate) fn sweep<T: Scalar>(
     let mut total = one.like(0.0);
     let mut extra = one.like(if matches!(weight, CenterWeight::Harmonic) { 1.0 } else { 0.0 });
     let mut corner_point = 0;
+    // Kept for all sides: with derivatives they are kilobytes, and each side overwrites what it uses.
+    let mut along = [one.like(0.0); MAX_DEGREE + 1];
+    let mut across = [one.like(0.0); MAX_LAYERS];
 
     for (i, ribbon) in net.ribbons.iter().enumerate() {
         let after = at(if i + 1 == n { 0 } else { i + 1 });
@@ -146,7 +145,7 @@ pub(crate) fn sweep<T: Scalar>(
 
         let (d, l) = (ribbon.degree().min(MAX_DEGREE), ribbon.layers().min(MAX_LAYERS));
         let (rest, s) = T::shares(before, here);
-        let mut along = along_basis(d, s, rest);
+        along_basis(d, s, rest, &mut along);
         let mut along_sum = one.like(0.0);
         for (j, blend) in along[..=d].iter_mut().enumerate() {
             if 2 * j < d {
@@ -156,7 +155,7 @@ pub(crate) fn sweep<T: Scalar>(
             }
             along_sum = along_sum + *blend;
         }
-        let across = across_basis(l, h, g);
+        across_basis(l, h, g, &mut across);
         let mut across_sum = across[0];
         for blend in &across[1..l] {
             across_sum = across_sum + *blend;

@@ -8,7 +8,7 @@ use crate::formula::{across_ratio_basis, along_basis, surface_jet};
 use crate::jet::Second;
 use crate::outline::{end_tangent, start_tangent};
 use crate::scalar::Scalar;
-use crate::{ConcavePatch, GbError, Ribbon};
+use crate::{ConcavePatch, GbError, MAX_DEGREE, MAX_LAYERS, Ribbon};
 
 /// Tangents whose sine is at most this are parallel: their cross product has lost half its digits.
 const PARALLEL_SINE: f64 = 1e-8;
@@ -24,8 +24,9 @@ impl Ribbon {
         let s = Second([s, 1.0, 0.0, 0.0, 0.0, 0.0]);
         let h = Second([h, 0.0, 1.0, 0.0, 0.0, 0.0]);
         let one = s.like(1.0);
-        let along = along_basis(self.degree(), s, one - s);
-        let across = across_ratio_basis(self.layers(), h, one - h);
+        let (mut along, mut across) = ([Second(zero); MAX_DEGREE + 1], [Second(zero); MAX_LAYERS]);
+        along_basis(self.degree(), s, one - s, &mut along);
+        across_ratio_basis(self.layers(), h, one - h, &mut across);
         let mut sum = [Second(zero); 3];
         let mut total = Second(zero);
         for (k, &weight) in across[..self.layers()].iter().enumerate() {

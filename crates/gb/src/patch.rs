@@ -9,7 +9,7 @@ use crate::formula::{self, Net};
 use crate::jet::Second;
 use crate::ribbon::check_point;
 use crate::samples::{check_length, checked};
-use crate::{GbError, Place, Ribbon};
+use crate::{CORNER_TOLERANCE, GbError, Place, Ribbon};
 
 /// Where the weight of the central control point comes from; n is the number of sides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -24,6 +24,18 @@ pub enum CenterWeight {
     Nth,
     /// `(2/9)(1−2/n)^(−2n) Π h_i²`; vanishes like h² on the sides.
     Harmonic,
+}
+
+impl std::fmt::Display for CenterWeight {
+    /// The word for it in model files.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::None => "none",
+            Self::Deficiency => "deficiency",
+            Self::Nth => "nth",
+            Self::Harmonic => "harmonic",
+        })
+    }
 }
 
 /// How the domain polygon was made.
@@ -303,8 +315,8 @@ impl ConcavePatch {
     /// An end of a side belongs to the neighbour too: its copy there moves along, so that the sides keep meeting.
     ///
     /// # Errors
-    /// No such point, a point that is not finite or too large, a side that would lose its length. The patch is then
-    /// unchanged.
+    /// No such point, a point that is not finite or too large, a side that would lose its length, a corner that would
+    /// coincide with another. The patch is then unchanged.
     pub fn set_control_point(
         &mut self,
         side: usize,
@@ -331,8 +343,25 @@ impl ConcavePatch {
         if let Some((side, _)) = moved.iter().find(|(_, ribbon)| ribbon.collapsed()) {
             return Err(GbError::ZeroLengthSide { side: *side, at: point });
         }
+        if moved.len() > 1 {
+            let corner = if j == 0 { (side + n - 1) % n } else { side };
+            self.keep_corners_apart(corner, point)?;
+        }
         for (side, ribbon) in moved {
             self.ribbons[side] = ribbon;
+        }
+        Ok(())
+    }
+
+    /// Refuses a place for a corner that is another corner's within [`CORNER_TOLERANCE`] of the model's size.
+    fn keep_corners_apart(&self, corner: usize, point: DVec3) -> Result<(), GbError> {
+        let allowed = CORNER_TOLERANCE * self.bounding_box().diagonal();
+        for (other, ribbon) in self.ribbons.iter().enumerate().filter(|(other, _)| *other != corner) {
+            let distance = ribbon.end().distance(point);
+            if distance <= allowed {
+                let (first, second) = (corner.min(other), corner.max(other));
+                return Err(GbError::EqualCorners { first, second, distance, allowed });
+            }
         }
         Ok(())
     }

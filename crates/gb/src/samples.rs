@@ -140,40 +140,35 @@ fn fill(
             }
         }
     };
-    let is_inside = |location: &Location| match *location {
-        Location::Inside(uv) => Some(uv),
-        _ => None,
-    };
-    let inside: Vec<DVec2> = locations.iter().filter_map(is_inside).collect();
-    let mut inside_rows = vec![0.0; inside.len() * height * n];
-    if !inside.is_empty() {
-        coordinates.evaluate_inside(&inside, order, &mut inside_rows)?;
-    }
-    let mut inside_rows = inside_rows.chunks_exact(height * n);
-    let mut rows = vec![0.0; height * n];
-    for (point, location) in locations.iter().enumerate() {
+    let (mut inside, mut on_sides) = (Vec::new(), Vec::new());
+    for location in locations {
         match *location {
-            Location::Inside(_) => {
-                if let Some(rows) = inside_rows.next() {
-                    store(point, rows);
-                }
-                continue;
-            }
-            Location::Side { side, t } if order > 0 => {
-                coordinates.evaluate_side(side, t, order, &mut rows)?
-            }
-            Location::Side { side, t } => {
-                rows.fill(0.0);
-                rows[(side + n - 1) % n] = 1.0 - t;
-                rows[side] = t;
-            }
-            Location::Corner(corner) => {
-                rows.fill(0.0);
-                rows[corner] = 1.0;
-            }
-            Location::Outside => {}
+            Location::Inside(uv) => inside.push(uv),
+            Location::Side { side, t } => on_sides.push((side, t)),
+            Location::Corner(_) | Location::Outside => {}
         }
-        store(point, &rows);
+    }
+    let mut inside_rows = vec![0.0; inside.len() * height * n];
+    coordinates.evaluate_inside(&inside, order, &mut inside_rows)?;
+    let mut side_rows = vec![0.0; on_sides.len() * height * n];
+    coordinates.evaluate_sides(&on_sides, order, &mut side_rows)?;
+    let mut inside_rows = inside_rows.chunks_exact(height * n);
+    let mut side_rows = side_rows.chunks_exact(height * n);
+    let mut corner_rows = vec![0.0; height * n];
+    for (point, location) in locations.iter().enumerate() {
+        let rows = match *location {
+            Location::Inside(_) => inside_rows.next(),
+            Location::Side { .. } => side_rows.next(),
+            Location::Corner(corner) => {
+                corner_rows.fill(0.0);
+                corner_rows[corner] = 1.0;
+                Some(&corner_rows[..])
+            }
+            Location::Outside => None,
+        };
+        if let Some(rows) = rows {
+            store(point, rows);
+        }
     }
     Ok(())
 }

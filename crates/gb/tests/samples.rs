@@ -166,6 +166,15 @@ fn refusals() {
     assert!(patch.set_control_point(0, 9, 0, DVec3::ZERO).is_err());
     assert!(patch.set_control_point(9, 0, 0, DVec3::ZERO).is_err());
     assert!(patch.set_control_point(0, 0, 0, DVec3::INFINITY).is_err());
+    // Start of side 0 is the last corner; it may not come to lie on corner 1.
+    let (before, taken) = (patch.clone(), patch.point_at(Location::Corner(1)).unwrap());
+    let refused = patch.set_control_point(0, 0, 0, taken).unwrap_err();
+    let last = patch.sides() - 1;
+    assert!(
+        matches!(refused, GbError::EqualCorners { first: 1, second, distance: 0.0, .. } if second == last),
+        "{refused:?}"
+    );
+    assert_eq!(patch.ribbons(), before.ribbons());
     let none = SampleSet::new(patch.coordinates(), &[], 0).unwrap();
     assert!(none.is_empty() && patch.evaluate_samples(&none, &mut []).is_ok());
     assert!(

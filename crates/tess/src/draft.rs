@@ -72,6 +72,8 @@ pub(crate) struct Draft<'a> {
     pub topology: Topology,
     /// Whether a triangle's chord error was found small since it last changed.
     pub passed: Vec<bool>,
+    /// Cotangent of each triangle's least angle, NaN where it changed since it was computed.
+    pub cotangents: Vec<f64>,
     pub chord_error: f64,
 }
 
@@ -127,6 +129,7 @@ impl<'a> Draft<'a> {
             normals: Vec::new(),
             boundary: mesh.boundary,
             passed: vec![false; mesh.triangles.len()],
+            cotangents: vec![f64::NAN; mesh.triangles.len()],
             topology: Topology::new(mesh.triangles, count),
             chord_error: outline.chord_error,
         };

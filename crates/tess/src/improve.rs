@@ -38,14 +38,39 @@ impl Draft<'_> {
 
     /// The cotangent in units of the one aimed at.
     fn poverty(&self, t: u32) -> f64 {
-        self.cotangent_of(t) / if self.at_boundary(t) { BOUNDARY_AIM } else { INNER_AIM }
+        self.cotangent_of(t) / self.aim(t)
+    }
+
+    fn aim(&self, t: u32) -> f64 {
+        if self.at_boundary(t) { BOUNDARY_AIM } else { INNER_AIM }
+    }
+
+    /// Triangles not yet passed whose kept cotangent is above `limit`, in order.
+    fn above(&mut self, limit: impl Fn(&Self, u32) -> f64) -> Vec<u32> {
+        let mut found = Vec::new();
+        for t in 0..self.topology.triangles.len() {
+            if self.passed[t] {
+                continue;
+            }
+            if self.cotangents[t].is_nan() {
+                self.cotangents[t] = self.cotangent_of(t as u32);
+            }
+            if self.cotangents[t] > limit(self, t as u32) {
+                found.push(t as u32);
+            }
+        }
+        found
+    }
+
+    /// Says that a triangle has other corners, or corners elsewhere, than before.
+    fn changed(&mut self, t: u32) {
+        self.passed[t as usize] = false;
+        self.cotangents[t as usize] = f64::NAN;
     }
 
     /// Flips edges of changed triangles while that widens the least angle of the two triangles.
     fn flip_changed(&mut self) {
-        let mut queue: Vec<u32> = (0..self.topology.triangles.len() as u32)
-            .filter(|&t| !self.passed[t as usize] && self.cotangent_of(t) > FLIP_ABOVE)
-            .collect();
+        let mut queue = self.above(|_, _| FLIP_ABOVE);
         // Every flip widens a least angle, so there is an end; this bounds it.
         let mut flips = 20 * queue.len() + 100;
         while let Some(t) = queue.pop() {
@@ -53,7 +78,7 @@ impl Draft<'_> {
                 if flips > 0 && self.flip_helps(t, k) {
                     flips -= 1;
                     if let Some(changed) = self.topology.flip(t, k) {
-                        changed.iter().for_each(|&t| self.passed[t as usize] = false);
+                        changed.iter().for_each(|&t| self.changed(t));
                         queue.extend(changed);
                     }
                     break;
@@ -97,9 +122,9 @@ impl Draft<'_> {
     /// Candidates are judged on the linear map that fits the star best; then the surface is evaluated, and what is no
     /// better goes back.
     fn move_vertices(&mut self) -> Result<bool, TessError> {
-        let poor = |t: &u32| !self.passed[*t as usize] && self.poverty(*t) > 1.0;
-        let mut candidates: Vec<u32> = (0..self.topology.triangles.len() as u32)
-            .filter(poor)
+        let mut candidates: Vec<u32> = self
+            .above(Self::aim)
+            .into_iter()
             .flat_map(|t| self.topology.triangles[t as usize])
             .filter(|v| *v as usize >= self.boundary)
             .collect();
@@ -127,7 +152,7 @@ impl Draft<'_> {
         for (vertex, place, point, normal, before) in moved {
             self.topology.star(vertex, &mut star);
             if self.penalty(&star) < before * (1.0 - GAIN) {
-                star.iter().for_each(|&t| self.passed[t as usize] = false);
+                star.iter().for_each(|&t| self.changed(t));
                 any = true;
             } else {
                 let v = vertex as usize;
@@ -207,8 +232,8 @@ impl Draft<'_> {
 
     /// Splits the longest edges of triangles that stayed poor; how many were split. The new vertices are evaluated.
     pub fn split_poor(&mut self) -> Result<usize, TessError> {
-        let poor = |t: &u32| !self.passed[*t as usize] && self.poverty(*t) > 1.1 && !self.hopeless(*t);
-        let list: Vec<u32> = (0..self.topology.triangles.len() as u32).filter(poor).collect();
+        let mut list = self.above(|draft, t| 1.1 * draft.aim(t));
+        list.retain(|&t| !self.hopeless(t));
         let mut touched = vec![false; self.topology.triangles.len()];
         let mut count = 0;
         for t in list {
@@ -309,9 +334,10 @@ impl Draft<'_> {
     fn touch(&mut self, changed: &[u32], touched: &mut Vec<bool>) {
         touched.resize(self.topology.triangles.len(), true);
         self.passed.resize(self.topology.triangles.len(), false);
+        self.cotangents.resize(self.topology.triangles.len(), f64::NAN);
         for &t in changed {
             touched[t as usize] = true;
-            self.passed[t as usize] = false;
+            self.changed(t);
         }
     }
 }

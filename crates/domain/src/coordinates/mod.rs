@@ -248,10 +248,7 @@ impl Coordinates {
         out: &mut [f64],
     ) -> Result<(), DomainError> {
         let n = self.len();
-        if side >= n {
-            let (value, most) = (side as f64, (n - 1) as f64);
-            return Err(DomainError::BadOption { option: "side", value, least: 0.0, most });
-        }
+        check_side(side, n)?;
         if !(0.0..=1.0).contains(&t) {
             return Err(DomainError::BadOption { option: "t", value: t, least: 0.0, most: 1.0 });
         }
@@ -259,20 +256,47 @@ impl Coordinates {
         if t == 0.0 || t == 1.0 {
             return self.evaluate_corner(if t == 0.0 { start } else { side }, order, out);
         }
-        self.check_buffer(1, order, out)?;
-        if order > 0 {
-            let [a, b] = self.polygon.side(side);
-            let p = [a * (1.0 - t) + b * t];
-            match &self.scheme {
-                Scheme::Wachspress(c) => weights::evaluate(c, &p, order, out),
-                Scheme::MeanValue(c) => weights::evaluate(c, &p, order, out),
-                Scheme::Harmonic(c) => c.evaluate_side(&self.polygon, side, t, order, out),
+        self.evaluate_sides(&[(side, t)], order, out)
+    }
+
+    /// As [`Coordinates::evaluate_side`] at many places, each a side and a parameter strictly between its ends.
+    ///
+    /// Error: as there, and [`DomainError::BadOption`] for t = 0 and t = 1.
+    pub fn evaluate_sides(
+        &self,
+        places: &[(usize, f64)],
+        order: usize,
+        out: &mut [f64],
+    ) -> Result<(), DomainError> {
+        let n = self.len();
+        self.check_buffer(places.len(), order, out)?;
+        for &(side, t) in places {
+            check_side(side, n)?;
+            if !(0.0 < t && t < 1.0) {
+                return Err(DomainError::BadOption { option: "t", value: t, least: 0.0, most: 1.0 });
             }
         }
-        out[..n].fill(0.0);
-        out[start] = 1.0 - t;
-        out[side] = t;
+        if order > 0 {
+            match &self.scheme {
+                Scheme::Wachspress(c) => weights::evaluate(c, &self.places_on_sides(places), order, out),
+                Scheme::MeanValue(c) => weights::evaluate(c, &self.places_on_sides(places), order, out),
+                Scheme::Harmonic(c) => c.evaluate_sides(&self.polygon, places, order, out),
+            }
+        }
+        for (&(side, t), out) in places.iter().zip(out.chunks_exact_mut(self.stride(order))) {
+            out[..n].fill(0.0);
+            out[(side + n - 1) % n] = 1.0 - t;
+            out[side] = t;
+        }
         Ok(())
+    }
+
+    fn places_on_sides(&self, places: &[(usize, f64)]) -> Vec<DVec2> {
+        let place = |&(side, t): &(usize, f64)| {
+            let [a, b] = self.polygon.side(side);
+            a * (1.0 - t) + b * t
+        };
+        places.iter().map(place).collect()
     }
 
     /// Coordinates at a corner: 1 for the corner, 0 for the others.
@@ -303,6 +327,14 @@ impl Coordinates {
         }
         Ok(())
     }
+}
+
+fn check_side(side: usize, sides: usize) -> Result<(), DomainError> {
+    if side < sides {
+        return Ok(());
+    }
+    let (value, most) = (side as f64, (sides - 1) as f64);
+    Err(DomainError::BadOption { option: "side", value, least: 0.0, most })
 }
 
 /// Bound on the rounding of values, 32·n·u·extent/clearance.

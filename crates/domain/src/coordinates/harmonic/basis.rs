@@ -98,8 +98,8 @@ struct CornerSeries {
     corner: usize,
     at: Complex64,
     alpha: f64,
-    /// Direction of the cut.
-    cut: f64,
+    /// The rotation that turns the cut onto the positive real axis.
+    rotation: Complex64,
     /// Angle from the first side to the cut, minus 2π.
     turn: f64,
     terms: usize,
@@ -202,7 +202,8 @@ impl Basis {
             }
             if let Some(cut) = free {
                 let terms = if is_crowded { 1 } else { terms };
-                self.series.push(CornerSeries { corner, at, alpha, cut, turn: cut - first - TAU, terms });
+                let (rotation, turn) = (Complex64::from_polar(1.0, -cut), cut - first - TAU);
+                self.series.push(CornerSeries { corner, at, alpha, rotation, turn, terms });
             }
         }
         if is_crowded {
@@ -372,8 +373,7 @@ impl CornerSeries {
     #[inline(always)]
     fn visit<const ORDER: usize>(&self, site: &Site, radius: f64, sink: &mut impl FnMut([Complex64; 3])) {
         let offset = site.offset(self.corner, self.at);
-        let turned = offset * Complex64::from_polar(1.0, -self.cut);
-        let mut theta = turned.arg();
+        let mut theta = (offset * self.rotation).arg();
         if theta < 0.0 {
             theta += TAU;
         }

@@ -125,49 +125,32 @@ impl HarmonicCoordinates {
         Arch::new().dispatch(Batch { coordinates: self, points, order, out });
     }
 
-    /// The same rows at a place on a side, strictly between its ends.
+    /// The same rows at places on sides, strictly between their ends, each a side and the parameter on it.
     ///
     /// Along the side λ_j is linear, so its first derivative is known there and its second is 0, and with it that
     /// across the side, their sum being 0. What remains of the fit is the slope across the side and how that changes.
-    pub(super) fn evaluate_side(
+    pub(super) fn evaluate_sides(
         &self,
         polygon: &Polygon,
-        side: usize,
-        t: f64,
+        places: &[(usize, f64)],
         order: usize,
         out: &mut [f64],
     ) {
-        let n = self.outline.len();
-        let k = (side + n - 1) % n;
-        let site = side_site(&self.outline, k, t);
+        Arch::new().dispatch(SideBatch { coordinates: self, polygon, places, order, out });
+    }
+
+    /// The cell that a place on a side belongs to.
+    fn part_of_side(&self, k: usize, t: f64, site: &Site) -> usize {
+        if self.parts.len() == 1 {
+            return 0;
+        }
         let owns = |p: &Part| {
             (0..p.cell().len()).any(|i| {
                 let [from, to] = p.cell().side_range(&self.outline, i, k);
                 p.cell().edges[i] == Edge::Side(k) && (from..=to).contains(&t)
             })
         };
-        let part = self.parts.iter().position(owns).unwrap_or_else(|| self.part_of(site.z));
-        self.evaluate_site(&self.parts[part], &site, order, &mut Scratch::new(&self.parts), out);
-        let [a, b] = polygon.side(side);
-        let length = a.distance(b);
-        let tangent = (b - a) / length;
-        let normal = tangent.perp();
-        for j in 0..n {
-            if order >= 1 {
-                let slope = f64::from(i8::from(j == side) - i8::from(j == k)) / length;
-                let across = normal.dot(DVec2::new(out[n + j], out[2 * n + j]));
-                let gradient = tangent * slope + normal * across;
-                (out[n + j], out[2 * n + j]) = (gradient.x, gradient.y);
-            }
-            if order >= 2 {
-                let (uu, uv) = (out[3 * n + j], out[4 * n + j]);
-                let mixed =
-                    tangent.dot(DVec2::new(uu * normal.x + uv * normal.y, uv * normal.x - uu * normal.y));
-                out[3 * n + j] = 2.0 * mixed * tangent.x * normal.x;
-                out[4 * n + j] = mixed * (tangent.x * normal.y + tangent.y * normal.x);
-                out[5 * n + j] = -out[3 * n + j];
-            }
-        }
+        self.parts.iter().position(owns).unwrap_or_else(|| self.part_of(site.z))
     }
 
     #[inline(always)]
@@ -227,6 +210,56 @@ impl WithSimd for Batch<'_> {
             let z = coordinates.frame.to_solver(p);
             let part = &coordinates.parts[coordinates.part_of(z)];
             coordinates.evaluate_site(part, &Site::free(z), order, &mut scratch, out);
+        }
+    }
+}
+
+/// Many places on sides, compiled for the widest vector instructions at hand.
+struct SideBatch<'a> {
+    coordinates: &'a HarmonicCoordinates,
+    polygon: &'a Polygon,
+    places: &'a [(usize, f64)],
+    order: usize,
+    out: &'a mut [f64],
+}
+
+impl WithSimd for SideBatch<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { coordinates, polygon, places, order, out } = self;
+        let n = coordinates.outline.len();
+        let mut scratch = Scratch::new(&coordinates.parts);
+        for (&(side, t), out) in places.iter().zip(out.chunks_exact_mut(rows(order) * n)) {
+            let site = side_site(&coordinates.outline, (side + n - 1) % n, t);
+            let part = &coordinates.parts[coordinates.part_of_side((side + n - 1) % n, t, &site)];
+            coordinates.evaluate_site(part, &site, order, &mut scratch, out);
+            impose_linearity(polygon, side, order, out);
+        }
+    }
+}
+
+/// Sets the derivatives along a side, of which λ is linear, to what they are exactly.
+fn impose_linearity(polygon: &Polygon, side: usize, order: usize, out: &mut [f64]) {
+    let n = polygon.len();
+    let [a, b] = polygon.side(side);
+    let length = a.distance(b);
+    let tangent = (b - a) / length;
+    let normal = tangent.perp();
+    for j in 0..n {
+        if order >= 1 {
+            let slope = f64::from(i8::from(j == side) - i8::from(j == (side + n - 1) % n)) / length;
+            let across = normal.dot(DVec2::new(out[n + j], out[2 * n + j]));
+            let gradient = tangent * slope + normal * across;
+            (out[n + j], out[2 * n + j]) = (gradient.x, gradient.y);
+        }
+        if order >= 2 {
+            let (uu, uv) = (out[3 * n + j], out[4 * n + j]);
+            let mixed = tangent.dot(DVec2::new(uu * normal.x + uv * normal.y, uv * normal.x - uu * normal.y));
+            out[3 * n + j] = 2.0 * mixed * tangent.x * normal.x;
+            out[4 * n + j] = mixed * (tangent.x * normal.y + tangent.y * normal.x);
+            out[5 * n + j] = -out[3 * n + j];
         }
     }
 }
