@@ -30,6 +30,7 @@ mod point;
 mod simplex;
 mod subdivision;
 mod tensor;
+mod wedge;
 
 pub use basis::{basis, basis_barycentric, basis_derivatives};
 pub use binomial::{MAX_DEGREE, binomial};
@@ -38,8 +39,9 @@ pub use error::BernsteinError;
 pub use interval::{de_casteljau, de_casteljau_scheme, derivative, derivatives, value};
 pub use point::Point;
 pub use simplex::{
-    MultiIndices, SimplexNet, TetrahedronNet, TriangleNet, last_barycentric, multi_indices, simplex_count,
-    simplex_index, simplex_partial_index,
+    MultiIndices, SimplexNet, TetrahedronNet, TriangleNet, last_barycentric, multi_indices, simplex_basis,
+    simplex_basis_partials, simplex_count, simplex_index, simplex_partial_index,
 };
 pub use subdivision::subdivide;
 pub use tensor::{TensorNet, partial_count, partial_index};
+pub use wedge::WedgeNet;

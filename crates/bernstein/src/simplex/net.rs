@@ -145,6 +145,13 @@ impl<'a, P: Point, const V: usize> SimplexNet<'a, P, V> {
         }
     }
 
+    /// Fills `net` with the control points, whatever their number.
+    pub(super) fn copy_to(&self, net: &mut [P]) {
+        for (place, p) in net.iter_mut().enumerate() {
+            *p = self.at(place);
+        }
+    }
+
     #[inline]
     pub(crate) fn at(&self, place: usize) -> P {
         self.points.get(place).copied().unwrap_or(P::ZERO)
