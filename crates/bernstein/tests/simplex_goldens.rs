@@ -1,5 +1,5 @@
 //! Triangles and tetrahedra against exact cases.
-#![allow(clippy::unwrap_used)] // helpers of tests
+#![allow(clippy::unwrap_used, clippy::expect_used)] // helpers of tests
 
 mod support;
 

@@ -1,5 +1,5 @@
 //! Simplices and wedges against exact arithmetic: values, derivatives, basis, blossom.
-#![allow(clippy::unwrap_used)] // helpers of tests
+#![allow(clippy::unwrap_used, clippy::expect_used)] // helpers of tests
 
 mod support;
 
