@@ -118,7 +118,7 @@ fn blossoms<const V: usize>(seed: u64, cases: usize) {
         let order = hunter.below(n.min(4) + 1);
         let lambda = hunter.barycentric::<V>();
         let directions = &arguments[..order];
-        let got = net.directional_derivative(lambda, directions, &mut scratch).unwrap();
+        let got = net.directional(lambda, directions, &mut scratch).unwrap();
         let vectors = |implied: fn(Q) -> Q, size: fn(&[Q]) -> Vec<Q>| {
             let mut list = vec![size(&exacts(&lambda)); n];
             for (place, direction) in list.iter_mut().zip(directions) {
@@ -209,7 +209,7 @@ fn wedges() {
         // Along one direction: the same, by the multinomial expansion in the partial derivatives.
         let (d, e) = ([hunter.number(), hunter.number(), 0.0], hunter.number());
         let mut scratch = vec![0.0; points.len() + o + 2 + order];
-        let got = net.directional_derivative((lambda, w), (d, e), order, &mut scratch).unwrap();
+        let got = net.directional((lambda, w), (d, e), order, &mut scratch).unwrap();
         let expansion = |size: bool| -> Q {
             let q = if size { absolutes(&q) } else { q.clone() };
             let d = exacts(&[d[0], d[1], e]);
@@ -222,7 +222,7 @@ fn wedges() {
 
         // The scheme ends at the value; the blossom with equal arguments is the value.
         let mut scheme = vec![f64::NAN; simplex_count::<4>(n) * (o + 1) + o * (o + 1) / 2];
-        net.de_casteljau_scheme(lambda, w, &mut scheme).unwrap();
+        net.scheme(lambda, w, &mut scheme).unwrap();
         let blossom = net.blossom(&vec![lambda; n], &vec![w; o], &mut scratch).unwrap();
         let truth = exact_partial(&q, [0; 3], false);
         let scale = exact_partial(&absolutes(&q), [0; 3], true) + floor(&q);

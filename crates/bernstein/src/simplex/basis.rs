@@ -3,7 +3,7 @@
 use super::index::{simplex_count, simplex_index, step_back};
 use crate::basis::{Halves, basis_barycentric};
 use crate::binomial::Row;
-use crate::error::exact_length;
+use crate::line::check_length;
 use crate::{BernsteinError, MAX_DEGREE};
 
 /// All Bernstein polynomials of degree n over a simplex with V vertices, `B_β(λ) = n!/β! λ^β`, |β| = n, at the
@@ -73,7 +73,7 @@ fn check<const V: usize>(degree: usize, order: usize, out: &[f64]) -> Result<(),
     if degree > MAX_DEGREE {
         return Err(BernsteinError::Degree { degree, limit: MAX_DEGREE });
     }
-    exact_length("out", simplex_count::<V>(order).saturating_mul(simplex_count::<V>(degree)), out.len())
+    check_length("out", out.len(), simplex_count::<V>(order).saturating_mul(simplex_count::<V>(degree)))
 }
 
 /// `C(n,r) λ₁ⁿ⁻ʳ` times the basis of degree r in the other coordinates, for all r.

@@ -2,7 +2,8 @@
 
 use super::index::{multi_indices, scheme_count, simplex_count, simplex_index};
 use super::net::{SimplexNet, value};
-use crate::error::{exact_length, least_length};
+use crate::error::least_length;
+use crate::line::check_length;
 use crate::{BernsteinError, Point};
 
 impl<P: Point, const V: usize> SimplexNet<'_, P, V> {
@@ -30,12 +31,12 @@ impl<P: Point, const V: usize> SimplexNet<'_, P, V> {
     /// ```
     /// use casteljau_bernstein::TriangleNet;
     /// let mut scheme = [0.0; 4];
-    /// TriangleNet::new(&[1.0, 2.0, 4.0], 1)?.de_casteljau_scheme([0.5, 0.25, 0.25], &mut scheme)?;
+    /// TriangleNet::new(&[1.0, 2.0, 4.0], 1)?.scheme([0.5, 0.25, 0.25], &mut scheme)?;
     /// assert_eq!(scheme, [1.0, 2.0, 4.0, 2.0]);
     /// # Ok::<(), casteljau_bernstein::BernsteinError>(())
     /// ```
-    pub fn de_casteljau_scheme(&self, lambda: [f64; V], out: &mut [P]) -> Result<(), BernsteinError> {
-        exact_length("out", scheme_count::<V>(self.degree()), out.len())?;
+    pub fn scheme(&self, lambda: [f64; V], out: &mut [P]) -> Result<(), BernsteinError> {
+        check_length("out", out.len(), scheme_count::<V>(self.degree()))?;
         let (mut below, mut rest) = out.split_at_mut(simplex_count::<V>(self.degree()));
         self.copy_to(below);
         for lower in (0..self.degree()).rev() {
@@ -61,7 +62,7 @@ impl<P: Point, const V: usize> SimplexNet<'_, P, V> {
     ///
     /// Source: Ramshaw, "Blossoms are polar forms", CAGD 6 (1989).
     pub fn blossom(&self, arguments: &[[f64; V]], scratch: &mut [P]) -> Result<P, BernsteinError> {
-        exact_length("arguments", self.degree(), arguments.len())?;
+        check_length("arguments", arguments.len(), self.degree())?;
         let scratch = self.copied(scratch)?;
         for (lower, &argument) in (0..self.degree()).rev().zip(arguments) {
             step(lower, argument, scratch);
@@ -83,18 +84,18 @@ impl<P: Point, const V: usize> SimplexNet<'_, P, V> {
     /// use casteljau_bernstein::TriangleNet;
     /// let net = TriangleNet::new(&[0.0, 0.5, 0.0, 0.0, 0.0, 0.0], 2)?; // λ₁λ₂
     /// let along_edge = [1.0, -1.0, 0.0];
-    /// let slope = net.directional_derivative([0.75, 0.25, 0.0], &[along_edge], &mut [0.0; 6])?;
+    /// let slope = net.directional([0.75, 0.25, 0.0], &[along_edge], &mut [0.0; 6])?;
     /// assert_eq!(slope, -0.5);
     /// # Ok::<(), casteljau_bernstein::BernsteinError>(())
     /// ```
-    pub fn directional_derivative(
+    pub fn directional(
         &self,
         lambda: [f64; V],
         directions: &[[f64; V]],
         scratch: &mut [P],
     ) -> Result<P, BernsteinError> {
         let scratch = self.copied(scratch)?;
-        Ok(directional_derivative(self.degree(), lambda, directions.iter().copied(), scratch))
+        Ok(directional(self.degree(), lambda, directions.iter().copied(), scratch))
     }
 
     /// The control points, at the beginning of `scratch`.
@@ -108,7 +109,7 @@ impl<P: Point, const V: usize> SimplexNet<'_, P, V> {
 }
 
 /// The derivative of the polynomial whose points stand in `net`, which is lost.
-pub(crate) fn directional_derivative<P: Point, const V: usize>(
+pub(crate) fn directional<P: Point, const V: usize>(
     degree: usize,
     lambda: [f64; V],
     directions: impl ExactSizeIterator<Item = [f64; V]>,

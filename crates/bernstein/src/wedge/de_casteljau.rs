@@ -1,8 +1,9 @@
 //! De Casteljau's algorithm over a wedge: its scheme, the blossom, directional derivatives.
 
 use super::WedgeNet;
-use crate::error::{exact_length, least_length};
-use crate::simplex::{directional_derivative, multi_indices, raised, simplex_count, simplex_index, step};
+use crate::error::least_length;
+use crate::line::check_length;
+use crate::simplex::{directional, multi_indices, raised, simplex_count, simplex_index, step};
 use crate::{BernsteinError, Point, derivative, interval};
 
 impl<P: Point> WedgeNet<'_, P> {
@@ -10,11 +11,11 @@ impl<P: Point> WedgeNet<'_, P> {
     /// after another; then, of the last one, a curve of degree o, the levels of its own scheme, `p(λ, w)` last.
     /// # Errors
     /// [`BernsteinError::BufferLength`] unless `out` holds (n+1)(n+2)(n+3)/6·(o+1) + o(o+1)/2 points.
-    pub fn de_casteljau_scheme(&self, lambda: [f64; 3], w: f64, out: &mut [P]) -> Result<(), BernsteinError> {
+    pub fn scheme(&self, lambda: [f64; 3], w: f64, out: &mut [P]) -> Result<(), BernsteinError> {
         let [n, o] = self.degrees();
         let width = o.saturating_add(1);
         let curve = width.saturating_mul(o) / 2;
-        exact_length("out", simplex_count::<4>(n).saturating_mul(width).saturating_add(curve), out.len())?;
+        check_length("out", out.len(), simplex_count::<4>(n).saturating_mul(width).saturating_add(curve))?;
         let (mut below, mut rest) = out.split_at_mut(simplex_count::<3>(n) * width);
         self.copy_to(below);
         for lower in (0..n).rev() {
@@ -30,7 +31,7 @@ impl<P: Point> WedgeNet<'_, P> {
         }
         // The scheme of the curve begins with its points, which are there already.
         let last = out.len() - curve - width;
-        interval::scheme_in_place(width, w, &mut out[last..]);
+        interval::fill_scheme(width, w, &mut out[last..]);
         Ok(())
     }
 
@@ -49,8 +50,8 @@ impl<P: Point> WedgeNet<'_, P> {
         scratch: &mut [P],
     ) -> Result<P, BernsteinError> {
         let [n, o] = self.degrees();
-        exact_length("in_triangle", n, in_triangle.len())?;
-        exact_length("in_height", o, in_height.len())?;
+        check_length("in_triangle", in_triangle.len(), n)?;
+        check_length("in_height", in_height.len(), o)?;
         let (net, column) = self.scratch(0, scratch)?;
         for (k, p) in column.iter_mut().enumerate() {
             self.copy_layer(k, net);
@@ -73,7 +74,7 @@ impl<P: Point> WedgeNet<'_, P> {
     ///
     /// # Errors
     /// [`BernsteinError::BufferLength`] unless `scratch` holds (n+1)(n+2)/2 + o + 1 + k points or more.
-    pub fn directional_derivative(
+    pub fn directional(
         &self,
         (lambda, w): ([f64; 3], f64),
         (d, e): ([f64; 3], f64),
@@ -90,7 +91,7 @@ impl<P: Point> WedgeNet<'_, P> {
             if in_triangle <= n {
                 for (k, p) in column.iter_mut().enumerate() {
                     self.copy_layer(k, net);
-                    *p = directional_derivative(n, lambda, std::iter::repeat_n(d, in_triangle), net);
+                    *p = directional(n, lambda, std::iter::repeat_n(d, in_triangle), net);
                 }
                 sum = sum + derivative(column, w, &mut work[..j]) * weight;
             }
