@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 /// Why a kernel refused its arguments.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum BernsteinError {
     /// There is no control point at all.
@@ -108,6 +108,19 @@ pub enum BernsteinError {
         from: usize,
         /// The degree asked for.
         to: usize,
+    },
+
+    /// An interval of length zero, where none is allowed.
+    ///
+    /// ```
+    /// use casteljau_bernstein::{BernsteinError, to_power};
+    /// let refused = to_power(&[0.0, 1.0], [2.0, 2.0], &mut [0.0; 2]);
+    /// assert_eq!(refused, Err(BernsteinError::EmptyInterval { start: 2.0 }));
+    /// ```
+    #[error("the interval begins and ends at {start}")]
+    EmptyInterval {
+        /// Both ends.
+        start: f64,
     },
 
     /// A degree is above [`MAX_DEGREE`](crate::MAX_DEGREE).
