@@ -123,6 +123,42 @@ pub enum BernsteinError {
         start: f64,
     },
 
+    /// A tolerance that is not positive.
+    ///
+    /// ```
+    /// use casteljau_bernstein::{BernsteinError, roots};
+    /// assert_eq!(roots(&[-1.0, 1.0], 0.0), Err(BernsteinError::Tolerance { tolerance: 0.0 }));
+    /// ```
+    #[error("the tolerance {tolerance} is not positive")]
+    Tolerance {
+        /// The tolerance given.
+        tolerance: f64,
+    },
+
+    /// A coefficient is not finite.
+    ///
+    /// ```
+    /// use casteljau_bernstein::{BernsteinError, roots};
+    /// let refused = roots(&[-1.0, f64::INFINITY], 1e-9);
+    /// assert_eq!(refused, Err(BernsteinError::Coefficient { place: 1, value: f64::INFINITY }));
+    /// ```
+    #[error("coefficient {place} is {value}")]
+    Coefficient {
+        /// Its place, counted from 0.
+        place: usize,
+        /// Its value.
+        value: f64,
+    },
+
+    /// The polynomial is zero everywhere: every parameter is a root.
+    ///
+    /// ```
+    /// use casteljau_bernstein::{BernsteinError, roots};
+    /// assert_eq!(roots(&[0.0, 0.0], 1e-9), Err(BernsteinError::ZeroPolynomial));
+    /// ```
+    #[error("the polynomial is zero everywhere")]
+    ZeroPolynomial,
+
     /// A degree is above [`MAX_DEGREE`](crate::MAX_DEGREE).
     ///
     /// ```
