@@ -4,8 +4,9 @@
 mod support;
 
 use casteljau_bernstein::{
-    BernsteinError, SimplexNet, TETRAHEDRON_EIGHTHS, TRIANGLE_QUARTERS, TetrahedronNet, TriangleNet,
-    restrict, simplex_count, simplex_index,
+    BernsteinError, SimplexNet, SimplexSpace, TETRAHEDRON_EIGHTHS, TRIANGLE_QUARTERS, TetrahedronNet,
+    TriangleNet, WedgeNet, WedgeSpace, compose, compose_simplex, restrict, simplex_count, simplex_index,
+    value,
 };
 use num_traits::{One, Zero};
 use support::exact::{Hunter, Q, absolutes, assert_within, choose, dot, exact, exacts, factor, integer};
@@ -370,4 +371,46 @@ fn wrong_lengths_and_degrees_are_refused() {
     assert!(broken.scheme([0.2, 0.3, 0.5], &mut [0.0; 45]).is_err());
     assert!(broken.product(&broken, &mut [0.0; 45]).is_err());
     assert!(broken.de_casteljau([0.2, 0.3, 0.5], &mut [0.0; 45]).is_nan());
+}
+
+/// Composition with arguments over a triangle and over a wedge, and of a triangle with such arguments.
+#[test]
+fn compositions() {
+    let mut hunter = Hunter::new(110);
+    for _ in 0..50 {
+        let (n, d) = (hunter.below(5), hunter.below(4));
+        let outer: Vec<f64> = (0..simplex_count::<3>(n)).map(|_| hunter.unit() - 0.5).collect();
+        let mut argument =
+            || -> Vec<f64> { (0..simplex_count::<3>(d)).map(|_| hunter.unit() / 2.0).collect() };
+        let (first, second) = (argument(), argument());
+        let third: Vec<f64> = first.iter().zip(&second).map(|(a, b)| 1.0 - a - b).collect();
+        let mut out = vec![f64::NAN; simplex_count::<3>(n * d)];
+        compose_simplex(&outer, n, &[&first, &second, &third], SimplexSpace::<3>(d), &mut out).unwrap();
+        let (a, b) = (hunter.unit() / 2.0, hunter.unit() / 2.0);
+        let lambda = [a, b, 1.0 - a - b];
+        let inner = [&first, &second, &third].map(|q| net::<3>(q, d).value(lambda));
+        let got = net::<3>(&out, n * d).value(lambda);
+        // Coordinates are rounded by 4(d+2)u, and |p′| ≤ 2n; the rest is the bound of the composition.
+        assert_accurate(
+            got,
+            net::<3>(&outer, n).value(inner),
+            4 * n * (d + 2) + n * d,
+            0,
+            1.0,
+            "triangle in triangle",
+        );
+
+        let curve = &outer[..n + 1];
+        compose(curve, [n], [&first], SimplexSpace::<3>(d), &mut out).unwrap();
+        let got = net::<3>(&out, n * d).value(lambda);
+        assert_accurate(got, value(curve, inner[0]), 4 * n * (d + 2) + n * d, 0, 1.0, "curve in triangle");
+
+        let degrees = [d, 1];
+        let height: Vec<f64> = first.iter().flat_map(|&q| [q, 1.0 - q]).collect();
+        let mut out = vec![f64::NAN; WedgeNet::<f64>::count([n * d, n])];
+        compose(curve, [n], [&height], WedgeSpace(degrees), &mut out).unwrap();
+        let inner = WedgeNet::new(&height, degrees).unwrap().value(lambda, a);
+        let got = WedgeNet::new(&out, [n * d, n]).unwrap().value(lambda, a);
+        assert_accurate(got, value(curve, inner), 4 * n * (d + 3) + n * (d + 1), 0, 1.0, "curve in wedge");
+    }
 }

@@ -4,7 +4,7 @@
 mod support;
 
 use casteljau_bernstein::{
-    BernsteinError, SimplexNet, TETRAHEDRON_FACES, TRIANGLE_EDGES, TetrahedronNet, TriangleNet,
+    BernsteinError, SimplexNet, TETRAHEDRON_FACES, TRIANGLE_EDGES, TetrahedronNet, TriangleNet, hull_bounds,
     simplex_count, simplex_from_power, simplex_power_matrix, simplex_power_matrix_inverse,
 };
 use num_traits::{One, Zero};
@@ -34,7 +34,7 @@ fn power_entry(n: usize, orders: &[usize], index: &[usize]) -> Q {
     let k: usize = rest.iter().sum();
     let mut terms = rest.clone();
     terms.push(index[last] - k);
-    let sign = if k % 2 == 0 { Q::one() } else { -Q::one() };
+    let sign = if k.is_multiple_of(2) { Q::one() } else { -Q::one() };
     assert_eq!(index.iter().sum::<usize>(), n);
     multinomial(index) * multinomial(&terms) * sign
 }
@@ -123,9 +123,9 @@ fn bounds<const V: usize>(seed: u64, rounds: usize, most: usize) {
         let points: Vec<f64> = (0..simplex_count::<V>(n)).map(|_| hunter.unit() - 0.5).collect();
         let net = net::<V>(&points, n);
         let tolerance = 1e-6;
-        let extremes = net.extremes(tolerance);
-        let [low, high] = net.hull();
-        for [a, b] in [extremes.min, extremes.max] {
+        let extremes = net.extremes(tolerance).unwrap();
+        let [low, high] = hull_bounds(points.iter().copied()).unwrap();
+        for [a, b] in [extremes.minimum, extremes.maximum] {
             assert!(a <= b && b - a <= tolerance, "{a} {b}");
             assert!(low - 1e-14 <= a && b <= high + 1e-14);
         }
@@ -137,11 +137,11 @@ fn bounds<const V: usize>(seed: u64, rounds: usize, most: usize) {
             let value = net.value(lambda);
             (least, greatest) = (least.min(value), greatest.max(value));
         }
-        assert!(extremes.min[0] <= least + 1e-14 && greatest <= extremes.max[1] + 1e-14);
+        assert!(extremes.minimum[0] <= least + 1e-14 && greatest <= extremes.maximum[1] + 1e-14);
         // On half a mesh width a polynomial of degree n and size 1 changes by at most n²/fine² · V².
         let gap = ((n * V) as f64 / fine as f64).powi(2) + 1e-12;
         assert!(
-            greatest >= extremes.max[0] - gap && least <= extremes.min[1] + gap,
+            greatest >= extremes.maximum[0] - gap && least <= extremes.minimum[1] + gap,
             "{n} {greatest} {extremes:?}"
         );
     }
@@ -159,17 +159,30 @@ fn extremes_at_known_places() {
     // 27 λ₁λ₂λ₃ has its greatest value 1 at the centre.
     let mut points = [0.0; 10];
     points[4] = 4.5;
-    let extremes = TriangleNet::new(&points, 3).unwrap().extremes(1e-10);
-    assert!(extremes.max[0] <= 1.0 && 1.0 <= extremes.max[1] && extremes.max[1] - extremes.max[0] <= 1e-10);
-    assert!(extremes.min[0] <= 0.0 && 0.0 <= extremes.min[1]);
+    let extremes = TriangleNet::new(&points, 3).unwrap().extremes(1e-10).unwrap();
+    assert!(
+        extremes.maximum[0] <= 1.0
+            && 1.0 <= extremes.maximum[1]
+            && extremes.maximum[1] - extremes.maximum[0] <= 1e-10
+    );
+    assert!(extremes.minimum[0] <= 0.0 && 0.0 <= extremes.minimum[1]);
     // Not attainable: below rounding. The enclosure is right, and longer.
-    let extremes = TriangleNet::new(&points, 3).unwrap().extremes(1e-30);
-    assert!(extremes.max[0] <= 1.0 && 1.0 <= extremes.max[1] && extremes.max[1] - extremes.max[0] < 1e-13);
+    let extremes = TriangleNet::new(&points, 3).unwrap().extremes(1e-30).unwrap();
+    assert!(
+        extremes.maximum[0] <= 1.0
+            && 1.0 <= extremes.maximum[1]
+            && extremes.maximum[1] - extremes.maximum[0] < 1e-13
+    );
     let constant = [2.5; 20];
-    let extremes = TetrahedronNet::new(&constant, 3).unwrap().extremes(0.0);
-    assert_eq!((extremes.min, extremes.max), ([2.5; 2], [2.5; 2]));
-    assert_eq!(TriangleNet::new(&[7.0], 0).unwrap().extremes(0.0).max, [7.0; 2]);
-    assert!(TriangleNet::new(&points, 3).unwrap().extremes(f64::NAN).max[1] >= 1.0);
+    let extremes = TetrahedronNet::new(&constant, 3).unwrap().extremes(1e-9).unwrap();
+    assert_eq!((extremes.minimum, extremes.maximum), ([2.5; 2], [2.5; 2]));
+    assert_eq!(TriangleNet::new(&[7.0], 0).unwrap().extremes(1e-9).unwrap().maximum, [7.0; 2]);
+    for tolerance in [0.0, -1.0, f64::NAN] {
+        let refused = TriangleNet::new(&points, 3).unwrap().extremes(tolerance);
+        assert!(matches!(refused, Err(BernsteinError::Tolerance { .. })), "{tolerance}");
+    }
+    let refused = TriangleNet::new(&[0.0, f64::INFINITY, 0.0], 1).unwrap().extremes(0.1);
+    assert_eq!(refused, Err(BernsteinError::Coefficient { place: 1, value: f64::INFINITY }));
 }
 
 /// The value on a face is that of the face's net to the bit, whatever the face; reorientation is a relabelling.

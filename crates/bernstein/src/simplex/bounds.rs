@@ -1,4 +1,4 @@
-//! Bounds of scalar polynomials over a simplex: by the hull, and tight ones by subdivision.
+//! Tight bounds of scalar polynomials over a simplex, by subdivision.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -7,59 +7,43 @@ use super::de_casteljau::raised;
 use super::index::{multi_indices, simplex_index, vertex_place};
 use super::net::SimplexNet;
 use super::restriction::replace_vertex;
+use crate::bounds::{check_finite, check_tolerance, halving_error};
+use crate::{BernsteinError, Extremes};
 
 /// Subdivision ends when it holds so many numbers, 128 MB.
 const MOST_NUMBERS: usize = 1 << 24;
 
-/// Unit roundoff.
-const U: f64 = f64::EPSILON / 2.0;
-
-/// Enclosures of the least and the greatest value of a polynomial over its domain.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SimplexExtremes {
-    /// Two numbers that the least value lies between.
-    pub min: [f64; 2],
-    /// Two numbers that the greatest value lies between.
-    pub max: [f64; 2],
-}
-
 impl<const V: usize> SimplexNet<'_, f64, V> {
-    /// The least and the greatest control point: by the convex hull property all values over the simplex lie
-    /// between them. No points give `[∞, −∞]`.
-    #[must_use]
-    pub fn hull(&self) -> [f64; 2] {
-        hull(self.points())
-    }
-
     /// The least and the greatest value over the simplex, each enclosed in an interval no longer than `tolerance`,
     /// an absolute one.
     ///
     /// The part with the greatest control point is halved, across the edge along which its points differ most,
     /// until that point is within the tolerance of the greatest value found at a vertex. Enclosures are certified:
-    /// rounding, at most n·u·max|P_β| for each halving, is counted. **They are longer than the tolerance** where
+    /// rounding, about n·u·max|P_β| for each halving, is counted. **They are longer than the tolerance** where
     /// that is below what rounding allows, or where 128 MB are full, as may happen for an extreme along a whole
     /// curve and tolerances below some 10⁻⁸ of the range: compare. Cost: near an extreme the distance shrinks by
     /// 4 with every halving of all edges; memory is allocated for the parts.
     ///
+    /// # Errors
+    /// [`BernsteinError::SimplexNetLength`]; [`BernsteinError::Tolerance`] unless the tolerance is positive;
+    /// [`BernsteinError::Coefficient`] where a control point is not finite.
+    ///
     /// ```
     /// use casteljau_bernstein::TriangleNet;
     /// let net = TriangleNet::new(&[0.0, 0.5, 0.0, 0.0, 0.0, 0.0], 2)?; // λ₁λ₂
-    /// let extremes = net.extremes(1e-9);
-    /// assert_eq!(extremes.min[0], 0.0);
-    /// assert!(extremes.max[0] <= 0.25 && 0.25 <= extremes.max[1] && extremes.max[1] < 0.25 + 1e-9);
+    /// let extremes = net.extremes(1e-9)?;
+    /// assert_eq!(extremes.minimum, [0.0, 0.0]);
+    /// let [low, high] = extremes.maximum;
+    /// assert!(low <= 0.25 && 0.25 <= high && high - low <= 1e-9);
     /// # Ok::<(), casteljau_bernstein::BernsteinError>(())
     /// ```
-    #[must_use]
-    pub fn extremes(&self, tolerance: f64) -> SimplexExtremes {
-        let n = self.degree();
+    ///
+    /// Source: Garloff, *The Bernstein algorithm*, Interval Computations 2, 1993.
+    pub fn extremes(&self, tolerance: f64) -> Result<Extremes, BernsteinError> {
+        let n = Self::new(self.points(), self.degree())?.degree();
         let vertices: [usize; V] = std::array::from_fn(|vertex| vertex_place::<V>(n, vertex));
         extremes(self.points(), n, &vertices, tolerance, |net| halves::<V>(n, net))
     }
-}
-
-/// The least and the greatest number.
-pub(crate) fn hull(points: &[f64]) -> [f64; 2] {
-    points.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &p| [low.min(p), high.max(p)])
 }
 
 /// Extremes by halving; `degree` is the number of roundings that a point sees in one halving, `vertices` the places
@@ -70,10 +54,14 @@ pub(crate) fn extremes(
     vertices: &[usize],
     tolerance: f64,
     halve: impl Fn(&[f64]) -> [Vec<f64>; 2],
-) -> SimplexExtremes {
-    let mirrored: Vec<f64> = points.iter().map(|p| -p).collect();
+) -> Result<Extremes, BernsteinError> {
+    check_finite(points)?;
+    check_tolerance(tolerance)?;
+    // 0 − p, so that a minimum of 0 does not become −0.
+    let mirrored: Vec<f64> = points.iter().map(|p| 0.0 - p).collect();
     let [low, high] = maximum(mirrored, degree, vertices, tolerance, &halve);
-    SimplexExtremes { min: [-high, -low], max: maximum(points.to_vec(), degree, vertices, tolerance, &halve) }
+    let maximum = maximum(points.to_vec(), degree, vertices, tolerance, &halve);
+    Ok(Extremes { minimum: [0.0 - high, 0.0 - low], maximum })
 }
 
 /// A part of the domain that may hold the greatest value.
@@ -85,7 +73,7 @@ struct Part {
 
 impl Part {
     fn new(net: Vec<f64>, depth: usize) -> Self {
-        Self { greatest: hull(&net)[1], depth, net }
+        Self { greatest: net.iter().fold(f64::NEG_INFINITY, |m, &p| m.max(p)), depth, net }
     }
 }
 
@@ -119,7 +107,7 @@ fn maximum(
     let at_vertices =
         |net: &[f64]| vertices.iter().filter_map(|&v| net.get(v)).fold(f64::NEG_INFINITY, |m, &p| m.max(p));
     let size = points.iter().fold(0.0, |m: f64, p| m.max(p.abs()));
-    let rounding = |depth: usize| (depth * degree) as f64 * U * size;
+    let rounding = |depth: usize| depth as f64 * halving_error(degree, size);
     let most = MOST_NUMBERS / points.len().max(1);
     let mut found = at_vertices(&points);
     let mut deepest = 0;
@@ -127,9 +115,10 @@ fn maximum(
     loop {
         let top = parts.peek().map_or(found, |part| part.greatest.max(found));
         let enclosure = [found - rounding(deepest), top + rounding(deepest)];
-        // Written so that tolerances that are no numbers end it.
-        let longer = enclosure[1] - enclosure[0] > tolerance;
-        if top <= found || !longer || 2.0 * rounding(deepest) > tolerance || parts.len() >= most {
+        let enough = enclosure[1] - enclosure[0] <= tolerance;
+        // Where rounding is most of what is left, halving makes it worse.
+        let settled = top - found <= 2.0 * rounding(deepest);
+        if enough || settled || parts.len() >= most {
             return enclosure;
         }
         let Some(part) = parts.pop() else { return enclosure };

@@ -1,26 +1,19 @@
 //! Bounds of scalar polynomials over a wedge.
 
 use super::WedgeNet;
-use crate::simplex::{SimplexExtremes, extremes, halves_across, hull, steepest_edge, vertex_place};
-use crate::subdivide;
+use crate::simplex::{extremes, halves_across, steepest_edge, vertex_place};
+use crate::{BernsteinError, Extremes, subdivide};
 
 impl WedgeNet<'_, f64> {
-    /// The least and the greatest control point: all values over the wedge lie between them.
-    #[must_use]
-    pub fn hull(&self) -> [f64; 2] {
-        hull(self.points())
-    }
-
     /// The least and the greatest value over the wedge, each enclosed in an interval no longer than `tolerance`, an
     /// absolute one; see [`SimplexNet::extremes`](crate::SimplexNet::extremes) for the method and for when they are
-    /// longer. A net that does not fit its degrees gives its hull.
-    #[must_use]
-    pub fn extremes(&self, tolerance: f64) -> SimplexExtremes {
-        let Ok(net) = self.checked() else {
-            let [low, high] = self.hull();
-            return SimplexExtremes { min: [low, high], max: [low, high] };
-        };
-        let [n, o] = net.degrees();
+    /// longer.
+    ///
+    /// # Errors
+    /// [`BernsteinError::WedgeNetLength`]; [`BernsteinError::Tolerance`] unless the tolerance is positive;
+    /// [`BernsteinError::Coefficient`] where a control point is not finite.
+    pub fn extremes(&self, tolerance: f64) -> Result<Extremes, BernsteinError> {
+        let [n, o] = self.checked()?.degrees();
         let vertices: Vec<usize> =
             (0..3).flat_map(|vertex| [0, o].map(|k| vertex_place::<3>(n, vertex) * (o + 1) + k)).collect();
         extremes(self.points(), n.max(o), &vertices, tolerance, |net| halves(n, o, net))

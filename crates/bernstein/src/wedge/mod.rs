@@ -8,6 +8,8 @@ mod net;
 mod power;
 mod product;
 mod restriction;
+mod space;
 
 pub use net::WedgeNet;
 pub use power::wedge_from_power;
+pub use space::WedgeSpace;
