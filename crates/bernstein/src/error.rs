@@ -47,6 +47,42 @@ pub enum BernsteinError {
         given: usize,
     },
 
+    /// A net over a simplex has another number of control points than its degree says.
+    ///
+    /// ```
+    /// use casteljau_bernstein::{BernsteinError, TriangleNet};
+    /// let refused = TriangleNet::new(&[0.0, 1.0], 1).err();
+    /// assert_eq!(refused, Some(BernsteinError::SimplexNetLength { vertices: 3, degree: 1, needed: 3, given: 2 }));
+    /// ```
+    #[error("a net of degree {degree} over {vertices} vertices has {needed} control points, not {given}")]
+    SimplexNetLength {
+        /// The number of vertices: 3 for a triangle, 4 for a tetrahedron.
+        vertices: usize,
+        /// The degree asked for.
+        degree: usize,
+        /// The number of control points that it asks for.
+        needed: usize,
+        /// The number of control points given.
+        given: usize,
+    },
+
+    /// A net over a wedge has another number of control points than its degrees say.
+    ///
+    /// ```
+    /// use casteljau_bernstein::{BernsteinError, WedgeNet};
+    /// let refused = WedgeNet::new(&[0.0, 1.0], [1, 1]).err();
+    /// assert_eq!(refused, Some(BernsteinError::WedgeNetLength { degrees: [1, 1], needed: 6, given: 2 }));
+    /// ```
+    #[error("a wedge of degrees {} × {} has {needed} control points, not {given}", .degrees[0], .degrees[1])]
+    WedgeNetLength {
+        /// The degrees of the triangle and of the height.
+        degrees: [usize; 2],
+        /// The number of control points that they ask for.
+        needed: usize,
+        /// The number of control points given.
+        given: usize,
+    },
+
     /// A net in three variables has another number of control points than its degrees say.
     ///
     /// ```
@@ -173,4 +209,9 @@ pub enum BernsteinError {
         /// The largest one served.
         limit: usize,
     },
+}
+
+/// Refuses a buffer that is shorter than needed.
+pub(crate) fn least_length(buffer: &'static str, needed: usize, given: usize) -> Result<(), BernsteinError> {
+    if given >= needed { Ok(()) } else { Err(BernsteinError::BufferLength { buffer, needed, given }) }
 }

@@ -99,7 +99,7 @@ fn differentiated_in<P: Point>(
 
 /// Replaces the last backward differences by those that end at a new point; gives the one of the next order.
 #[inline(always)]
-fn push<P: Point>(differences: &mut [P], mut newest: P) -> P {
+pub(crate) fn push<P: Point>(differences: &mut [P], mut newest: P) -> P {
     for difference in differences {
         let older = std::mem::replace(difference, newest);
         newest = newest - older;
