@@ -3,7 +3,7 @@
 //! A polynomial of degree n is held by its control points, `p(t) = Σ Bᵢⁿ(t) Pᵢ` with
 //! `Bᵢⁿ(t) = C(n,i) tⁱ (1−t)ⁿ⁻ⁱ`. Every kernel is generic in the kind of [`Point`] (numbers, or glam's vectors;
 //! rational shapes use `DVec4`) and writes into buffers that the caller owns. Kernels allocate nothing, but for
-//! those that say so: composition, extremes, roots, matrices, and products from degree 32 on.
+//! those that say so: composition, extremes, roots, matrices, and products of intervals and tensor products from degree 32 on.
 //!
 //! ```
 //! use casteljau_bernstein::{basis, value};
@@ -17,7 +17,8 @@
 //!
 //! Functions for the interval have plain names; the same for a net along one axis ends in `_along`, for a net as
 //! a whole in `_tensor`, and takes its degrees: `[m, n]` for a net in the order of [`TensorNet`], `[l, m, n]` for
-//! one in the order of [`BoxNet`].
+//! one in the order of [`BoxNet`]. Over triangles and tetrahedra kernels are methods of [`SimplexNet`], over wedges of
+//! [`WedgeNet`].
 //!
 //! | task | functions |
 //! | --- | --- |
@@ -30,6 +31,8 @@
 //! | composition | [`compose`], [`compose_homogeneous`], [`compose_simplex`], [`BernsteinSpace`] |
 //! | power basis | [`from_power`], [`to_power`], [`power_matrix`], [`inverse_power_matrix`] |
 //! | integrals | [`integral`], [`integral_over`], [`moment`], [`antiderivative`] |
+//! | triangles and tetrahedra | [`SimplexNet`]: all of this as methods; [`simplex_basis`], [`simplex_basis_partials`], [`simplex_index`], [`multi_indices`], [`last_barycentric`], [`simplex_from_power`], [`simplex_power_matrix`], [`SimplexSpace`] |
+//! | wedges | [`WedgeNet`], [`wedge_from_power`], [`WedgeSpace`] |
 //! | bounds and roots | [`hull_bounds`], [`extremes`], [`roots`] |
 //!
 //! # Accuracy and range

@@ -70,12 +70,22 @@ const fn places<const V: usize>(index: &[usize; V], first: usize) -> usize {
 /// `r (r+1) … (r+d−1) / d!`, the number of multi-indices of d + 1 entries and a degree below r.
 #[inline]
 const fn rising(r: usize, d: usize) -> usize {
-    let (mut product, mut i) = (1_usize, 0);
-    while i < d {
-        product = product.saturating_mul(r.saturating_add(i)) / (i + 1);
-        i += 1;
+    let (one, two) = (r.saturating_add(1), r.saturating_add(2));
+    // Divisions by constants are multiplications: an index is a matter of a nanosecond or two.
+    match d {
+        0 => 1,
+        1 => r,
+        2 => r.saturating_mul(one) / 2,
+        3 => (r.saturating_mul(one) / 2).saturating_mul(two) / 3,
+        _ => {
+            let (mut product, mut i) = (1_usize, 0);
+            while i < d {
+                product = product.saturating_mul(r.saturating_add(i)) / (i + 1);
+                i += 1;
+            }
+            product
+        }
     }
-    product
 }
 
 /// The place of a vertex.
