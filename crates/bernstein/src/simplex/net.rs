@@ -1,5 +1,6 @@
 //! Values and partial derivatives over a simplex.
 
+use super::de_casteljau::raised;
 use super::index::{MultiIndices, simplex_count, simplex_index, step_back};
 use crate::interval::{nested_barycentric, push};
 use crate::{BernsteinError, MAX_DEGREE, Point, binomial::Row};
@@ -185,7 +186,14 @@ pub(crate) fn partial<P: Point, const V: usize>(
         Some(_) if total == 0 => value(n, lambda, at),
         Some(lower) => {
             let factor = (lower + 1..=n).fold(1.0, |f, m| f * m as f64);
-            form(lower, lambda, |index| difference(index, orders, work, at)) * factor
+            let derivative = match orders.iter().position(|&order| order == 1) {
+                // First derivatives, most in demand, without recursion.
+                Some(axis) if total == 1 => form(lower, lambda, |index: [usize; V]| {
+                    at(simplex_index(raised(index, axis))) - at(simplex_index(raised(index, V - 1)))
+                }),
+                _ => form(lower, lambda, |index| difference(index, orders, work, at)),
+            };
+            derivative * factor
         }
     }
 }
