@@ -13,10 +13,15 @@ pub use casteljau_bernstein as bernstein;
 pub use casteljau_geom as geom;
 
 mod arc_length;
+mod control_point;
 mod curve;
+mod curve_operations;
 mod error;
+mod parametric;
 mod patch;
 
-pub use curve::Curve;
+pub use control_point::ControlPoint;
+pub use curve::{BezierCurve, Curve, RationalCurve};
 pub use error::{LARGEST_COORDINATE, ShapeError};
-pub use patch::Patch;
+pub use parametric::{Parameters, ParametricCurve, ParametricSurface, SurfaceDomain};
+pub use patch::{BezierPatch, Patch, RationalPatch};
