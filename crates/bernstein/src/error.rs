@@ -47,6 +47,25 @@ pub enum BernsteinError {
         given: usize,
     },
 
+    /// A net over a simplex has another number of control points than its degree says.
+    ///
+    /// ```
+    /// use casteljau_bernstein::{BernsteinError, TriangleNet};
+    /// let refused = TriangleNet::new(&[0.0, 1.0], 1).err();
+    /// assert_eq!(refused, Some(BernsteinError::SimplexNetLength { vertices: 3, degree: 1, needed: 3, given: 2 }));
+    /// ```
+    #[error("a net of degree {degree} over {vertices} vertices has {needed} control points, not {given}")]
+    SimplexNetLength {
+        /// The number of vertices: 3 for a triangle, 4 for a tetrahedron.
+        vertices: usize,
+        /// The degree asked for.
+        degree: usize,
+        /// The number of control points that it asks for.
+        needed: usize,
+        /// The number of control points given.
+        given: usize,
+    },
+
     /// A degree is above [`MAX_DEGREE`](crate::MAX_DEGREE).
     ///
     /// ```

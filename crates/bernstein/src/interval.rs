@@ -18,15 +18,20 @@ pub fn value<P: Point>(points: &[P], t: f64) -> P {
 }
 
 /// `Σ Bᵢⁿ(t) Pᵢ` over points that are made one after another.
-///
-/// `((P₀ s + C(n,1) t P₁) s + C(n,2) t² P₂) s + … + tⁿ Pₙ`, s = 1 − t: positive weights on `[0, 1]`
-/// throughout, hence stable.
 #[inline]
-pub(crate) fn nested<P: Point>(n: usize, t: f64, mut points: impl Iterator<Item = P>) -> P {
+pub(crate) fn nested<P: Point>(n: usize, t: f64, points: impl Iterator<Item = P>) -> P {
+    binary_form(n, [1.0 - t, t], points)
+}
+
+/// `Σ C(n,i) sⁿ⁻ⁱ tⁱ Pᵢ` over points that are made one after another.
+///
+/// `((P₀ s + C(n,1) t P₁) s + C(n,2) t² P₂) s + … + tⁿ Pₙ`: positive weights for positive s and t throughout,
+/// hence stable.
+#[inline]
+pub(crate) fn binary_form<P: Point>(n: usize, [s, t]: [f64; 2], mut points: impl Iterator<Item = P>) -> P {
     if n > MAX_DEGREE {
         return P::NAN;
     }
-    let s = 1.0 - t;
     let mut row = Row::new(n);
     let mut power = 1.0;
     let mut sum = points.next().unwrap_or(P::ZERO);
@@ -89,7 +94,7 @@ fn differentiated_in<P: Point>(
 
 /// Replaces the last backward differences by those that end at a new point; gives the one of the next order.
 #[inline(always)]
-fn push<P: Point>(differences: &mut [P], mut newest: P) -> P {
+pub(crate) fn push<P: Point>(differences: &mut [P], mut newest: P) -> P {
     for difference in differences {
         let older = std::mem::replace(difference, newest);
         newest = newest - older;

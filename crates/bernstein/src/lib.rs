@@ -27,6 +27,7 @@ mod elevation;
 mod error;
 mod interval;
 mod point;
+mod simplex;
 mod subdivision;
 mod tensor;
 
@@ -36,5 +37,9 @@ pub use elevation::elevate;
 pub use error::BernsteinError;
 pub use interval::{de_casteljau, de_casteljau_scheme, derivative, derivatives, value};
 pub use point::Point;
+pub use simplex::{
+    MultiIndices, SimplexNet, TetrahedronNet, TriangleNet, last_barycentric, multi_indices, simplex_count,
+    simplex_index, simplex_partial_index,
+};
 pub use subdivision::subdivide;
 pub use tensor::{TensorNet, partial_count, partial_index};

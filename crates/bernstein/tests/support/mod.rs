@@ -1,6 +1,8 @@
 //! Reading the exact cases, and the numbers that properties are tried with.
 #![allow(dead_code)] // every test file uses its own share of this
 
+pub mod exact;
+
 use std::path::PathBuf;
 
 use proptest::prelude::*;
