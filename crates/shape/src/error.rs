@@ -73,6 +73,23 @@ pub enum ShapeError {
         given: usize,
     },
 
+    /// A triangle whose number of control points does not fit its degree.
+    ///
+    /// ```
+    /// use casteljau_shape::{ShapeError, Triangle, geom::glam::DVec3};
+    /// let refused = Triangle::new(2, vec![DVec3::ZERO; 5]);
+    /// assert_eq!(refused, Err(ShapeError::TriangleSize { degree: 2, needed: 6, given: 5 }));
+    /// ```
+    #[error("a triangle of degree {degree} has {needed} control points, not {given}")]
+    TriangleSize {
+        /// The degree.
+        degree: usize,
+        /// (n+1)(n+2)/2.
+        needed: usize,
+        /// The number given.
+        given: usize,
+    },
+
     /// A parameter that is not finite.
     ///
     /// ```

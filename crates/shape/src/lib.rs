@@ -19,9 +19,11 @@ mod curve_operations;
 mod error;
 mod parametric;
 mod patch;
+mod triangle;
 
 pub use control_point::ControlPoint;
 pub use curve::{BezierCurve, Curve, RationalCurve};
 pub use error::{LARGEST_COORDINATE, ShapeError};
 pub use parametric::{Parameters, ParametricCurve, ParametricSurface, SurfaceDomain};
 pub use patch::{BezierPatch, Patch, RationalPatch};
+pub use triangle::{BezierTriangle, RationalTriangle, Triangle};
