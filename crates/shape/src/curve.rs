@@ -4,7 +4,7 @@ use casteljau_bernstein::{MAX_DEGREE, basis_barycentric, derivatives, value};
 use casteljau_geom::glam::{DVec3, DVec4};
 use casteljau_geom::{BoundingBox, CurveJet, Interval, rounding_bound};
 
-use crate::control_point::{checked, hull_box, largest_weight, lifted};
+use crate::control_point::{checked, hull_box, largest_weight, lifted, private::Projective};
 use crate::error::{check_degree, check_points};
 use crate::{ControlPoint, Parameters, ParametricCurve, ShapeError};
 
@@ -217,6 +217,18 @@ impl RationalCurve {
         let control_points = control_points.into();
         check_count(control_points.len())?;
         Ok(Self::checked(Interval::UNIT, checked(control_points)?))
+    }
+
+    /// The first control point, `C(a)`; `None` where it lies at infinity.
+    #[must_use]
+    pub fn start(&self) -> Option<DVec3> {
+        value(&self.control_points, 0.0).euclidean()
+    }
+
+    /// The last control point, `C(b)`; `None` where it lies at infinity.
+    #[must_use]
+    pub fn end(&self) -> Option<DVec3> {
+        value(&self.control_points, 1.0).euclidean()
     }
 
     /// Weights `w₀ … wₙ`.

@@ -183,6 +183,21 @@ pub enum ShapeError {
         control_points: usize,
     },
 
+    /// A quantity that a construction cannot be carried out with.
+    ///
+    /// ```
+    /// use casteljau_shape::{RationalPatch, ShapeError, geom::glam::DVec3};
+    /// let refused = RationalPatch::sphere(DVec3::ZERO, -1.0);
+    /// assert_eq!(refused, Err(ShapeError::Construction { what: "radius of the sphere", value: -1.0 }));
+    /// ```
+    #[error("nothing can be constructed with {what}: {value}")]
+    Construction {
+        /// What the quantity is.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+
     /// There is no point here: the denominator vanishes within its rounding, or a number leaves the range.
     ///
     /// ```

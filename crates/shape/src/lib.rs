@@ -13,12 +13,15 @@ pub use casteljau_bernstein as bernstein;
 pub use casteljau_geom as geom;
 
 mod arc_length;
+mod conic;
 mod control_point;
 mod curve;
 mod curve_operations;
 mod error;
 mod parametric;
 mod patch;
+mod power;
+mod quadric;
 mod triangle;
 
 pub use control_point::ControlPoint;
@@ -26,4 +29,5 @@ pub use curve::{BezierCurve, Curve, RationalCurve};
 pub use error::{LARGEST_COORDINATE, ShapeError};
 pub use parametric::{Parameters, ParametricCurve, ParametricSurface, SurfaceDomain};
 pub use patch::{BezierPatch, Patch, RationalPatch};
+pub use power::{PowerCurve, PowerPatch};
 pub use triangle::{BezierTriangle, RationalTriangle, Triangle};
