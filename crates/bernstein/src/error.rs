@@ -66,6 +66,69 @@ pub enum BernsteinError {
         given: usize,
     },
 
+    /// A net in three variables has another number of control points than its degrees say.
+    ///
+    /// ```
+    /// use casteljau_bernstein::{BernsteinError, BoxNet};
+    /// let refused = BoxNet::new(&[0.0, 1.0, 2.0], [1, 1, 0]);
+    /// assert_eq!(refused.err(), Some(BernsteinError::BoxNetLength { degrees: [1, 1, 0], given: 3 }));
+    /// ```
+    #[error(
+        "a net of degrees {} × {} × {} does not have {given} control points",
+        .degrees[0], .degrees[1], .degrees[2]
+    )]
+    BoxNetLength {
+        /// The degrees asked for.
+        degrees: [usize; 3],
+        /// The number of control points given.
+        given: usize,
+    },
+
+    /// A net does not have so many axes.
+    ///
+    /// ```
+    /// use casteljau_bernstein::{BernsteinError, elevate_along};
+    /// let refused = elevate_along(&[0.0, 1.0], [1, 0], 2, 3, &mut [0.0; 4]);
+    /// assert_eq!(refused, Err(BernsteinError::Axis { axis: 2, dimension: 2 }));
+    /// ```
+    #[error("axis {axis} of a net with {dimension} axes, counted from 0")]
+    Axis {
+        /// The axis asked for.
+        axis: usize,
+        /// The number of axes.
+        dimension: usize,
+    },
+
+    /// Elevation cannot lower a degree.
+    ///
+    /// ```
+    /// use casteljau_bernstein::{BernsteinError, elevate_tensor};
+    /// let refused = elevate_tensor(&[0.0; 4], [1, 1], [2, 0], &mut [0.0; 3]);
+    /// assert_eq!(refused, Err(BernsteinError::ElevatedDegree { from: 1, to: 0 }));
+    /// ```
+    #[error("elevation from degree {from} to {to}, which is lower")]
+    ElevatedDegree {
+        /// The degree of the net.
+        from: usize,
+        /// The degree asked for.
+        to: usize,
+    },
+
+    /// Reduction cannot raise a degree.
+    ///
+    /// ```
+    /// use casteljau_bernstein::{BernsteinError, reduce};
+    /// let refused = reduce(&[0.0, 1.0], &mut [0.0; 3], &mut [0.0; 2]);
+    /// assert_eq!(refused, Err(BernsteinError::ReducedDegree { from: 1, to: 2 }));
+    /// ```
+    #[error("reduction from degree {from} to {to}, which is higher")]
+    ReducedDegree {
+        /// The degree of the net.
+        from: usize,
+        /// The degree asked for.
+        to: usize,
+    },
+
     /// A degree is above [`MAX_DEGREE`](crate::MAX_DEGREE).
     ///
     /// ```

@@ -163,9 +163,15 @@ pub fn de_casteljau_scheme<P: Point>(points: &[P], t: f64, out: &mut [P]) -> Res
     if out.len() != needed {
         return Err(BernsteinError::BufferLength { buffer: "out", needed, given: out.len() });
     }
+    out[..count].copy_from_slice(points);
+    fill_scheme(count, t, out);
+    Ok(())
+}
+
+/// The levels of the scheme above the first, which is there and has `count` points.
+pub(crate) fn fill_scheme<P: Point>(count: usize, t: f64, out: &mut [P]) {
     let s = 1.0 - t;
     let (mut below, mut rest) = out.split_at_mut(count);
-    below.copy_from_slice(points);
     for length in (1..count).rev() {
         let (level, left) = rest.split_at_mut(length);
         for (p, pair) in level.iter_mut().zip(below.windows(2)) {
@@ -173,5 +179,4 @@ pub fn de_casteljau_scheme<P: Point>(points: &[P], t: f64, out: &mut [P]) -> Res
         }
         (below, rest) = (level, left);
     }
-    Ok(())
 }

@@ -23,23 +23,34 @@ pub use glam;
 
 mod basis;
 mod binomial;
+mod blossom;
+mod box_net;
 mod elevation;
 mod error;
 mod interval;
+mod line;
 mod point;
+mod reduction;
+mod restriction;
+mod scheme;
 mod simplex;
 mod subdivision;
 mod tensor;
 
 pub use basis::{basis, basis_barycentric, basis_derivatives};
 pub use binomial::{MAX_DEGREE, binomial};
-pub use elevation::elevate;
+pub use blossom::{blossom, blossom_tensor};
+pub use box_net::{BoxNet, box_partial_count, box_partial_index};
+pub use elevation::{elevate, elevate_along, elevate_tensor};
 pub use error::BernsteinError;
 pub use interval::{de_casteljau, de_casteljau_scheme, derivative, derivatives, value};
 pub use point::Point;
+pub use reduction::{reduce, reduce_along};
+pub use restriction::{restrict, restrict_along, restrict_tensor};
+pub use scheme::{scheme_count, tensor_scheme_count};
 pub use simplex::{
     MultiIndices, SimplexNet, TetrahedronNet, TriangleNet, last_barycentric, multi_indices, simplex_count,
     simplex_index, simplex_partial_index,
 };
-pub use subdivision::subdivide;
+pub use subdivision::{subdivide, subdivide_along};
 pub use tensor::{TensorNet, partial_count, partial_index};

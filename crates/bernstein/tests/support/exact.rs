@@ -36,7 +36,8 @@ pub fn factorial(n: usize) -> Q {
 
 /// `C(n, k)`, 0 for k > n.
 pub fn choose(n: usize, k: usize) -> Q {
-    if k > n { Q::zero() } else { (0..k).fold(Q::one(), |c, j| c * integer(n - j) / integer(j + 1)) }
+    let c = if k > n { 0.into() } else { (0..k).fold(BigInt::from(1), |c, j| c * (n - j) / (j + 1)) };
+    Q::from_integer(c)
 }
 
 /// `xᵏ`, with x⁰ = 1.

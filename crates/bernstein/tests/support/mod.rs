@@ -68,3 +68,11 @@ pub fn parameter() -> impl Strategy<Value = f64> {
         1 => -1.0..2.0,
     ]
 }
+
+/// The numbers of a nested array, `depth` arrays deep, in order.
+pub fn flat(value: &Value, depth: usize) -> Vec<f64> {
+    match depth {
+        0 => vec![number(value)],
+        _ => value.as_array().unwrap().iter().flat_map(|v| flat(v, depth - 1)).collect(),
+    }
+}
