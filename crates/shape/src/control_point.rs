@@ -2,7 +2,7 @@
 
 use casteljau_bernstein::Point;
 use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
-use casteljau_geom::{BoundingBox, GeomError, partial_count, quotient_partials};
+use casteljau_geom::{BoundingBox, GeomError, partial_count, quotient_partials, rounding_bound};
 
 use crate::ShapeError;
 use crate::error::{check_points, check_weight};
@@ -26,6 +26,9 @@ pub(crate) mod private {
 
     /// A point of projective space, seen from the shape that it controls.
     pub trait Projective: Point {
+        /// Whether there is a weight to divide by.
+        const RATIONAL: bool;
+
         /// The numbers in memory.
         fn components(&self) -> &[f64];
 
@@ -34,11 +37,6 @@ pub(crate) mod private {
 
         /// The point in space; `None` at infinity.
         fn euclidean(self) -> Option<DVec3>;
-
-        /// The coefficients of a shape along a coordinate axis direction, the weight of `p · direction`.
-        fn linear(self, form: DVec4) -> f64 {
-            self.homogeneous().dot(form)
-        }
 
         /// Derivatives of the shape in N parameters, from the kernel that fills in those of its net.
         ///
@@ -51,6 +49,8 @@ pub(crate) mod private {
     }
 
     impl Projective for DVec3 {
+        const RATIONAL: bool = false;
+
         fn components(&self) -> &[f64] {
             self.as_ref()
         }
@@ -78,6 +78,8 @@ pub(crate) mod private {
     }
 
     impl Projective for DVec4 {
+        const RATIONAL: bool = true;
+
         fn components(&self) -> &[f64] {
             self.as_ref()
         }
@@ -151,4 +153,33 @@ pub(crate) fn hull_box<P: ControlPoint>(points: &[P]) -> Option<BoundingBox> {
         return None;
     }
     BoundingBox::from_points(points.iter().map(|p| p.euclidean().unwrap_or(DVec3::NAN)))
+}
+
+/// A bound on the distance of two rational shapes in space at equal parameters, from their nets of one degree.
+///
+/// With N/w and N′/w′, both seen from a point c, it is `|(N−N′) − (N/w)(w−w′)|/|w′| ≤ (δ_N + R δ_w)/min w′`, R being
+/// the largest distance of a control point of the first shape from c. `degree` is the total one, for an allowance
+/// for the rounding of the second net.
+pub(crate) fn distance_bound<P: ControlPoint>(
+    points: &[P],
+    nearby: &[P],
+    degree: usize,
+) -> Result<f64, ShapeError> {
+    let (Some(bounds), true) = (hull_box(points), has_hull(nearby)) else {
+        return Err(ShapeError::Unbounded);
+    };
+    let center = bounds.center();
+    let (mut in_space, mut in_weight, mut radius) = (0.0_f64, 0.0_f64, 0.0_f64);
+    let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
+    for (p, q) in points.iter().zip(nearby) {
+        let (p, q) = (p.homogeneous(), q.homogeneous());
+        let seen = |p: DVec4| p.xyz() - center * p.w;
+        in_space = in_space.max(seen(p).distance(seen(q)));
+        in_weight = in_weight.max((p.w - q.w).abs());
+        radius = radius.max((seen(p) / p.w).length());
+        least = least.min(q.w.abs());
+        most = most.max(p.w.abs()).max(q.w.abs());
+    }
+    let rounding = rounding_bound(degree, 0, 2.0 * most * (radius + center.length()));
+    Ok((in_space + radius * in_weight + rounding) / least)
 }

@@ -1,11 +1,12 @@
 //! The same curve with other control points: reversed, elevated, cut; and its directions at the ends.
 
-use casteljau_bernstein::{BernsteinError, MAX_DEGREE, elevate, subdivide};
+use casteljau_bernstein::{BernsteinError, MAX_DEGREE, elevate, reduce, restrict, subdivide};
 use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
 use casteljau_geom::{Interval, UNIT_ROUNDOFF};
 
-use crate::error::check_points;
-use crate::{BezierCurve, ControlPoint, ShapeError};
+use crate::control_point::distance_bound;
+use crate::error::{check_points, check_weight};
+use crate::{BezierCurve, ControlPoint, RationalCurve, ShapeError};
 
 impl<P: ControlPoint> BezierCurve<P> {
     /// Unit tangent at the start, `lim C′/|C′|` for t → a⁺.
@@ -71,28 +72,93 @@ impl<P: ControlPoint> BezierCurve<P> {
     /// `whole.point(t)`.
     ///
     /// The interval may reach beyond that of the curve, which is then continued. Error of each control point:
-    /// two subdivisions, 8(n+2)·u times its combination of absolute values.
+    /// at most 4(n+2)·u times its combination of absolute values.
     ///
     /// # Errors
     /// [`ShapeError::Coordinate`] where a far continuation makes points out of range.
     pub fn restricted(&self, interval: Interval) -> Result<Self, ShapeError> {
-        let mut points = self.control_points().to_vec();
-        let mut rest = points.clone();
-        let [a, b] = [self.local(interval.start()), self.local(interval.end())];
-        // Cut first where the other end stays farther away, so that it is well placed in what is left.
-        if (1.0 - a).abs() >= b.abs() {
-            let source = points.clone();
-            subdivide(&source, a, &mut rest, &mut points)?;
-            let source = points.clone();
-            subdivide(&source, (b - a) / (1.0 - a), &mut points, &mut rest)?;
-        } else {
-            let source = points.clone();
-            subdivide(&source, b, &mut points, &mut rest)?;
-            let source = points.clone();
-            subdivide(&source, a / b, &mut rest, &mut points)?;
-        }
+        let mut points = vec![P::ZERO; self.control_points().len()];
+        let part = [self.local(interval.start()), self.local(interval.end())];
+        restrict(self.control_points(), part, &mut points)?;
         check_points(&points)?;
         Ok(Self::checked(interval, points))
+    }
+
+    /// The nearest curve of a lower degree with the same ends, and a bound on its distance from this one at
+    /// equal parameters, over the interval, in model units.
+    ///
+    /// Minimises the mean square distance of the control polynomials, which are homogeneous where the curve is
+    /// rational. A curve that was elevated comes back as it was. See
+    /// [`reduce`](casteljau_bernstein::reduce).
+    ///
+    /// ```
+    /// use casteljau_shape::{Curve, geom::glam::DVec3};
+    /// let parabola = Curve::new([DVec3::ZERO, DVec3::X, DVec3::ONE])?;
+    /// let (again, error) = parabola.elevated(3)?.reduced(2)?;
+    /// assert!(error < 1e-14 && again.point(0.5).distance(parabola.point(0.5)) < 1e-14);
+    /// # Ok::<(), casteljau_shape::ShapeError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ShapeError::Kernel`] where `degree` is above that of the curve, [`ShapeError::Unbounded`] for a
+    /// rational curve whose weights, or whose reduced weights, do not all have one sign.
+    pub fn reduced(&self, degree: usize) -> Result<(Self, f64), ShapeError> {
+        let from = self.degree();
+        if degree > from {
+            return Err(BernsteinError::ReducedDegree { from, to: degree }.into());
+        }
+        let (mut points, mut work) = (vec![P::ZERO; degree + 1], vec![P::ZERO; from + 1]);
+        let deviation = reduce(self.control_points(), &mut points, &mut work)?;
+        let reduced = Self::checked(self.interval(), points);
+        if !P::RATIONAL {
+            return Ok((reduced, deviation));
+        }
+        let raised = reduced.elevated(from - degree)?;
+        let error = distance_bound(self.control_points(), raised.control_points(), from)?;
+        Ok((reduced, error))
+    }
+}
+
+impl RationalCurve {
+    /// The same curve run at another pace, `t ↦ ct/(1 − t + ct)` over `[0, 1]`: its weights become `cⁱ wᵢ`.
+    ///
+    /// This is the Möbius reparametrisation that keeps the ends; with c > 1 the start is run through faster.
+    ///
+    /// # Errors
+    /// [`ShapeError::Construction`] unless c is positive and finite, [`ShapeError::Coordinate`] where weights
+    /// leave the range.
+    ///
+    /// Source: Farin, *Curves and Surfaces for CAGD*, 5th ed., sec. 13.5.
+    pub fn repaced(&self, c: f64) -> Result<Self, ShapeError> {
+        if c.is_nan() || c <= 0.0 || c.is_infinite() {
+            return Err(ShapeError::Construction { what: "ratio of the weights", value: c });
+        }
+        let mut power = 1.0;
+        let mut points = self.control_points().to_vec();
+        for p in &mut points {
+            *p *= power;
+            power *= c;
+        }
+        check_points(&points)?;
+        check_weight(&points)?;
+        Ok(Self::checked(self.interval(), points))
+    }
+
+    /// The same curve in standard form, with first and last weight 1.
+    ///
+    /// # Errors
+    /// [`ShapeError::Construction`] unless the end weights have the same sign, [`ShapeError::Coordinate`] where
+    /// weights leave the range.
+    pub fn standard_form(&self) -> Result<Self, ShapeError> {
+        let points = self.control_points();
+        let (first, last) = (points[0].w, points[points.len() - 1].w);
+        let ratio = first / last;
+        if ratio.is_nan() || ratio <= 0.0 || ratio.is_infinite() {
+            return Err(ShapeError::Construction { what: "ratio of the end weights", value: ratio });
+        }
+        let scaled = points.iter().map(|&p| p / first).collect();
+        let even = Self::checked(self.interval(), scaled);
+        if even.degree() == 0 { Ok(even) } else { even.repaced(ratio.powf(1.0 / self.degree() as f64)) }
     }
 }
 

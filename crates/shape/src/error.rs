@@ -198,6 +198,19 @@ pub enum ShapeError {
         value: f64,
     },
 
+    /// The weights of a rational shape do not all have one sign, so that its control points bound nothing.
+    ///
+    /// ```
+    /// use casteljau_shape::{RationalCurve, ShapeError, geom::glam::DVec3};
+    /// let curve = RationalCurve::new(&[DVec3::ZERO, DVec3::X, DVec3::Y], &[1.0, -0.5, 1.0])?;
+    /// assert_eq!(curve.reduced(1), Err(ShapeError::Unbounded));
+    /// # Ok::<(), ShapeError>(())
+    /// ```
+    #[error(
+        "the weights do not all have one sign, or a control point lies at infinity: the hull bounds nothing"
+    )]
+    Unbounded,
+
     /// There is no point here: the denominator vanishes within its rounding, or a number leaves the range.
     ///
     /// ```
