@@ -66,6 +66,23 @@ pub enum BernsteinError {
         given: usize,
     },
 
+    /// A net over a wedge has another number of control points than its degrees say.
+    ///
+    /// ```
+    /// use casteljau_bernstein::{BernsteinError, WedgeNet};
+    /// let refused = WedgeNet::new(&[0.0, 1.0], [1, 1]).err();
+    /// assert_eq!(refused, Some(BernsteinError::WedgeNetLength { degrees: [1, 1], needed: 6, given: 2 }));
+    /// ```
+    #[error("a wedge of degrees {} × {} has {needed} control points, not {given}", .degrees[0], .degrees[1])]
+    WedgeNetLength {
+        /// The degrees of the triangle and of the height.
+        degrees: [usize; 2],
+        /// The number of control points that they ask for.
+        needed: usize,
+        /// The number of control points given.
+        given: usize,
+    },
+
     /// A net in three variables has another number of control points than its degrees say.
     ///
     /// ```
@@ -143,4 +160,9 @@ pub enum BernsteinError {
         /// The largest one served.
         limit: usize,
     },
+}
+
+/// Refuses a buffer that is shorter than needed.
+pub(crate) fn least_length(buffer: &'static str, needed: usize, given: usize) -> Result<(), BernsteinError> {
+    if given >= needed { Ok(()) } else { Err(BernsteinError::BufferLength { buffer, needed, given }) }
 }

@@ -18,17 +18,22 @@ pub fn value<P: Point>(points: &[P], t: f64) -> P {
 }
 
 /// `Σ Bᵢⁿ(t) Pᵢ` over points that are made one after another.
+///
+/// `((P₀ s + C(n,1) t P₁) s + C(n,2) t² P₂) s + … + tⁿ Pₙ`, s = 1 − t: positive weights on `[0, 1]`
+/// throughout, hence stable.
 #[inline]
 pub(crate) fn nested<P: Point>(n: usize, t: f64, points: impl Iterator<Item = P>) -> P {
-    binary_form(n, [1.0 - t, t], points)
+    nested_barycentric(n, 1.0 - t, t, points)
 }
 
-/// `Σ C(n,i) sⁿ⁻ⁱ tⁱ Pᵢ` over points that are made one after another.
-///
-/// `((P₀ s + C(n,1) t P₁) s + C(n,2) t² P₂) s + … + tⁿ Pₙ`: positive weights for positive s and t throughout,
-/// hence stable.
+/// `Σ C(n,i) sⁿ⁻ⁱ tⁱ Pᵢ`, s and t being independent.
 #[inline]
-pub(crate) fn binary_form<P: Point>(n: usize, [s, t]: [f64; 2], mut points: impl Iterator<Item = P>) -> P {
+pub(crate) fn nested_barycentric<P: Point>(
+    n: usize,
+    s: f64,
+    t: f64,
+    mut points: impl Iterator<Item = P>,
+) -> P {
     if n > MAX_DEGREE {
         return P::NAN;
     }

@@ -36,6 +36,7 @@ mod scheme;
 mod simplex;
 mod subdivision;
 mod tensor;
+mod wedge;
 
 pub use basis::{basis, basis_barycentric, basis_derivatives};
 pub use binomial::{MAX_DEGREE, binomial};
@@ -49,8 +50,9 @@ pub use reduction::{reduce, reduce_along};
 pub use restriction::{restrict, restrict_along, restrict_tensor};
 pub use scheme::{scheme_count, tensor_scheme_count};
 pub use simplex::{
-    MultiIndices, SimplexNet, TetrahedronNet, TriangleNet, last_barycentric, multi_indices, simplex_count,
-    simplex_index, simplex_partial_index,
+    MultiIndices, SimplexNet, TetrahedronNet, TriangleNet, last_barycentric, multi_indices, simplex_basis,
+    simplex_basis_partials, simplex_count, simplex_index, simplex_partial_index,
 };
 pub use subdivision::{subdivide, subdivide_along};
 pub use tensor::{TensorNet, partial_count, partial_index};
+pub use wedge::WedgeNet;

@@ -1,9 +1,11 @@
 //! Triangles and tetrahedra against exact cases.
-#![allow(clippy::unwrap_used)] // helpers of tests
+#![allow(clippy::unwrap_used, clippy::expect_used)] // helpers of tests
 
 mod support;
 
-use casteljau_bernstein::{SimplexNet, last_barycentric, multi_indices, simplex_count, simplex_index};
+use casteljau_bernstein::{
+    SimplexNet, last_barycentric, multi_indices, simplex_basis, simplex_count, simplex_index,
+};
 use serde_json::Value;
 use support::{assert_accurate, cases, component, number, numbers, size};
 
@@ -97,4 +99,31 @@ fn triangles() {
 #[test]
 fn tetrahedra() {
     values_and_partials::<4>("tetrahedra.json");
+}
+
+fn basis<const V: usize>() {
+    for case in cases("simplex_basis.json").iter().filter(|case| size(&case["dim"]) + 1 == V) {
+        let (n, lambda) = (size(&case["degree"]), barycentric::<V>(&case["lambda_first"]));
+        let mut b = vec![0.0; simplex_count::<V>(n)];
+        simplex_basis(n, lambda, &mut b).unwrap();
+        let exact = numbers(&case["values"]);
+        assert_eq!(exact.len(), b.len());
+        for (place, (b, exact)) in b.into_iter().zip(exact).enumerate() {
+            // A single product: the scale is the value itself.
+            assert_accurate(
+                b,
+                exact,
+                n,
+                0,
+                exact.abs(),
+                &format!("place {place} of degree {n} at {lambda:?}"),
+            );
+        }
+    }
+}
+
+#[test]
+fn bases() {
+    basis::<3>();
+    basis::<4>();
 }

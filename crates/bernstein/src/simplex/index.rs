@@ -15,6 +15,11 @@ pub const fn simplex_count<const V: usize>(degree: usize) -> usize {
     rising(degree.saturating_add(1), V.saturating_sub(1))
 }
 
+/// The number of points of de Casteljau's scheme, `C(n + V, V)`: the nets of all degrees from n to 0.
+pub(crate) const fn scheme_count<const V: usize>(degree: usize) -> usize {
+    rising(degree.saturating_add(1), V)
+}
+
 /// The place of the control point with a multi-index: indices descend lexicographically, (n,0,0), (n−1,1,0),
 /// (n−1,0,1), (n−2,2,0), …
 ///

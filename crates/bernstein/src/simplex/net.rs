@@ -1,7 +1,7 @@
 //! Values and partial derivatives over a simplex.
 
 use super::index::{MultiIndices, simplex_count, simplex_index, step_back};
-use crate::interval::{binary_form, push};
+use crate::interval::{nested_barycentric, push};
 use crate::{BernsteinError, MAX_DEGREE, Point, binomial::Row};
 
 /// A polynomial over a simplex with V vertices, `p(λ) = Σ n!/β! λ^β P_β`, |β| = n, over a borrowed control net.
@@ -145,6 +145,13 @@ impl<'a, P: Point, const V: usize> SimplexNet<'a, P, V> {
         }
     }
 
+    /// Fills `net` with the control points, whatever their number.
+    pub(super) fn copy_to(&self, net: &mut [P]) {
+        for (place, p) in net.iter_mut().enumerate() {
+            *p = self.at(place);
+        }
+    }
+
     #[inline]
     pub(crate) fn at(&self, place: usize) -> P {
         self.points.get(place).copied().unwrap_or(P::ZERO)
@@ -224,7 +231,7 @@ fn nested_form<P: Point>(n: usize, lambda: &[f64], points: &mut impl Iterator<It
     match *lambda {
         [] => P::ZERO,
         [last] => (0..n).fold(points.next().unwrap_or(P::ZERO), |p, _| p * last),
-        [s, t] => binary_form(n, [s, t], points),
+        [s, t] => nested_barycentric(n, s, t, points),
         [first, ref others @ ..] => {
             let mut row = Row::new(n);
             let mut sum = nested_form(0, others, points);

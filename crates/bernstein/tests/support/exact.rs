@@ -6,7 +6,7 @@
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::{One, Signed, ToPrimitive};
 
 use super::U;
 
@@ -15,7 +15,7 @@ pub type Q = BigRational;
 
 /// The rational number that an f64 is.
 pub fn exact(x: f64) -> Q {
-    Q::from_float(x).expect("finite")
+    Q::from_float(x).unwrap()
 }
 
 pub fn exacts(x: &[f64]) -> Vec<Q> {
