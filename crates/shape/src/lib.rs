@@ -13,6 +13,7 @@ pub use casteljau_bernstein as bernstein;
 pub use casteljau_geom as geom;
 
 mod arc_length;
+mod area;
 mod conic;
 mod control_point;
 mod curve;
@@ -23,7 +24,9 @@ mod parametric;
 mod patch;
 mod patch_operations;
 mod power;
+mod quadrature;
 mod quadric;
+mod rational_arc_length;
 mod triangle;
 
 pub use control_point::ControlPoint;
