@@ -16,6 +16,7 @@ mod arc_length;
 mod area;
 mod conic;
 mod control_point;
+mod conversion;
 mod curve;
 mod curve_operations;
 mod error;
@@ -27,6 +28,7 @@ mod power;
 mod quadrature;
 mod quadric;
 mod rational_arc_length;
+mod tight_box;
 mod triangle;
 
 pub use control_point::ControlPoint;
