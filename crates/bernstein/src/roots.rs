@@ -171,44 +171,47 @@ impl Search<'_> {
     fn run(&self, error: f64) -> Result<Vec<Root>, BernsteinError> {
         let mut found: Vec<Root> = Vec::new();
         let mut stack = vec![Piece { start: 0.0, end: 1.0, net: self.whole.to_vec(), error }];
-        // A cell of undecided pieces that are neighbours.
+        // The sign before the pieces that are left, and the undecided ones next to each other.
+        let mut before = self.sign(0.0);
         let mut cell: Option<[f64; 2]> = None;
         while let Some(piece) = stack.pop() {
-            let undecided = match piece.signs() {
-                Signs::Same => false,
-                Signs::OneChange => {
-                    self.close(&mut cell, &mut found)?;
-                    found.push(self.refined(&piece));
-                    false
+            let signs = piece.signs();
+            match signs {
+                Signs::Same | Signs::OneChange => {
+                    self.close(&mut cell, [before, piece.net[0]], &mut found)?;
+                    before = piece.net[piece.net.len() - 1];
+                    if matches!(signs, Signs::OneChange) {
+                        found.push(self.refined(&piece));
+                    }
+                    continue;
                 }
-                Signs::Nothing => true,
                 // A root where two pieces meet leaves both: together they must not be too long.
-                Signs::Unknown if piece.end - piece.start <= (0.5 * self.tolerance).max(2.0 * U) => true,
-                Signs::Unknown => {
+                Signs::Unknown if piece.end - piece.start > (0.5 * self.tolerance).max(2.0 * U) => {
                     let [left, right] = piece.halves()?;
                     stack.push(right);
                     stack.push(left);
                     continue;
                 }
-            };
-            if undecided {
-                match &mut cell {
-                    Some([_, end]) if *end == piece.start => *end = piece.end,
-                    _ => {
-                        self.close(&mut cell, &mut found)?;
-                        cell = Some([piece.start, piece.end]);
-                    }
-                }
+                Signs::Unknown | Signs::Nothing => {}
             }
+            // The stack gives the pieces from left to right, without gaps.
+            let start = cell.map_or(piece.start, |[start, _]| start);
+            cell = Some([start, piece.end]);
         }
-        self.close(&mut cell, &mut found)?;
+        self.close(&mut cell, [before, self.sign(1.0)], &mut found)?;
         Ok(found)
     }
 
-    /// Says what is certain about a cell and appends it.
-    fn close(&self, cell: &mut Option<[f64; 2]>, found: &mut Vec<Root>) -> Result<(), BernsteinError> {
+    /// Says what is certain about a cell, between two values of known sign, and appends it.
+    fn close(
+        &self,
+        cell: &mut Option<[f64; 2]>,
+        [before, after]: [f64; 2],
+        found: &mut Vec<Root>,
+    ) -> Result<(), BernsteinError> {
         let Some([start, end]) = cell.take() else { return Ok(()) };
-        let kind = if self.sign(start) * self.sign(end) >= 0.0 {
+        let changes = before < 0.0 && after > 0.0 || before > 0.0 && after < 0.0;
+        let kind = if !changes {
             RootKind::Touch
         } else if self.is_monotone(start, end)? {
             RootKind::Simple

@@ -186,7 +186,7 @@ fn multiple_roots_and_ends() {
     assert!(found[0].start <= 0.5 && found[0].end >= 0.5 && found[0].end - found[0].start <= 1e-9);
     // A double root touches, a triple one changes the sign; both are blurred by rounding.
     let double = roots(&with_roots(&[0.25, 0.25]), 1e-9).unwrap();
-    assert_eq!((double.len(), double[0].kind), (1, RootKind::Touch));
+    assert_eq!((double.len(), double[0].kind), (1, RootKind::Touch), "{double:?}");
     assert!((double[0].middle() - 0.25).abs() < 1e-7);
     let triple = roots(&with_roots(&[0.3125, 0.3125, 0.3125]), 1e-9).unwrap();
     assert_eq!((triple.len(), triple[0].kind), (1, RootKind::SignChange));
