@@ -30,6 +30,7 @@ mod quadric;
 mod rational_arc_length;
 mod tight_box;
 mod triangle;
+mod triangle_operations;
 
 pub use control_point::ControlPoint;
 pub use curve::{BezierCurve, Curve, RationalCurve};

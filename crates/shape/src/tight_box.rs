@@ -3,11 +3,11 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use casteljau_bernstein::subdivide_along;
+use casteljau_bernstein::{TriangleNet, subdivide_along};
 use casteljau_geom::glam::{DVec2, DVec3, DVec4};
 use casteljau_geom::{BoundingBox, rounding_bound};
 
-use crate::{BezierCurve, BezierPatch, ControlPoint, ShapeError};
+use crate::{BezierCurve, BezierPatch, BezierTriangle, ControlPoint, ShapeError};
 
 /// At most so many parts are looked at for each face of the box.
 const MOST_PARTS: usize = 1 << 16;
@@ -35,7 +35,7 @@ impl<P: ControlPoint> BezierCurve<P> {
     /// [`ShapeError::Construction`] unless the tolerance is positive, [`ShapeError::Unbounded`] where there is a
     /// pole, [`ShapeError::Kernel`] never.
     pub fn tight_box(&self, tolerance: f64) -> Result<BoundingBox, ShapeError> {
-        tight_box(self.control_points(), [self.degree()], tolerance)
+        tight_box(self.control_points(), &Grid([self.degree()]), tolerance)
     }
 }
 
@@ -49,13 +49,88 @@ impl<P: ControlPoint> BezierPatch<P> {
     /// # Errors
     /// Those of [`BezierCurve::tight_box`].
     pub fn tight_box(&self, tolerance: f64) -> Result<BoundingBox, ShapeError> {
-        tight_box(self.control_points(), self.degrees(), tolerance)
+        tight_box(self.control_points(), &Grid(self.degrees()), tolerance)
     }
 }
 
-fn tight_box<P: ControlPoint, const D: usize>(
+impl<P: ControlPoint> BezierTriangle<P> {
+    /// The box around the triangle, each face at most `tolerance` away from touching it, in model units. Otherwise as
+    /// [`BezierPatch::tight_box`].
+    ///
+    /// # Errors
+    /// Those of [`BezierCurve::tight_box`].
+    pub fn tight_box(&self, tolerance: f64) -> Result<BoundingBox, ShapeError> {
+        tight_box(self.control_points(), &Bisected { degree: self.degree() }, tolerance)
+    }
+}
+
+/// How a domain is halved.
+trait Halving {
+    /// The sum of the degrees.
+    fn total_degree(&self) -> usize;
+
+    /// Places of the corners in a net.
+    fn corners(&self) -> Vec<usize>;
+
+    /// The nets over the two halves of a part that came out of so many halvings.
+    fn halves(&self, net: &[DVec2], halvings: u32) -> Result<[Vec<DVec2>; 2], ShapeError>;
+}
+
+/// An interval or a rectangle, halved across one axis after another.
+struct Grid<const D: usize>([usize; D]);
+
+impl<const D: usize> Halving for Grid<D> {
+    fn total_degree(&self) -> usize {
+        self.0.iter().sum()
+    }
+
+    fn corners(&self) -> Vec<usize> {
+        let place = |corner: usize| {
+            let end = |axis: usize| (corner >> axis & 1) * self.0[axis];
+            (0..D).fold(0, |place, axis| place * (self.0[axis] + 1) + end(axis))
+        };
+        (0..1 << D).map(place).collect()
+    }
+
+    fn halves(&self, net: &[DVec2], halvings: u32) -> Result<[Vec<DVec2>; 2], ShapeError> {
+        let mut left = vec![DVec2::ZERO; net.len()];
+        let mut right = left.clone();
+        subdivide_along(net, self.0, halvings as usize % D, 0.5, &mut left, &mut right)?;
+        Ok([left, right])
+    }
+}
+
+/// A triangle, its edge from vertex 0 to vertex 1 halved; the newest vertex becomes vertex 2, so that the parts have
+/// four shapes at most.
+struct Bisected {
+    degree: usize,
+}
+
+impl Halving for Bisected {
+    fn total_degree(&self) -> usize {
+        self.degree
+    }
+
+    fn corners(&self) -> Vec<usize> {
+        let last = (self.degree + 1) * (self.degree + 2) / 2 - 1;
+        vec![0, last - self.degree, last]
+    }
+
+    fn halves(&self, net: &[DVec2], _: u32) -> Result<[Vec<DVec2>; 2], ShapeError> {
+        let mut near = [vec![DVec2::ZERO; net.len()], vec![DVec2::ZERO; net.len()]];
+        let mut out = near.clone();
+        let [a, b] = &mut near;
+        TriangleNet::validated(net, self.degree).split_edge([0, 1], 0.5, a, b)?;
+        for ((half, order), turned) in near.iter().zip([[0, 2, 1], [1, 2, 0]]).zip(&mut out) {
+            TriangleNet::validated(half, self.degree).face(order, turned)?;
+        }
+        Ok(out)
+    }
+}
+
+fn tight_box<P: ControlPoint>(
     points: &[P],
-    degrees: [usize; D],
+    domain: &dyn Halving,
     tolerance: f64,
 ) -> Result<BoundingBox, ShapeError> {
     if tolerance.is_nan() || tolerance <= 0.0 {
@@ -64,7 +139,7 @@ fn tight_box<P: ControlPoint, const D: usize>(
     let reach = |direction: DVec4| {
         let net =
             points.iter().map(|p| DVec2::new(p.homogeneous().dot(direction), p.homogeneous().w)).collect();
-        reach(net, degrees, tolerance)
+        reach(net, domain, tolerance)
     };
     let axes = [DVec4::X, DVec4::Y, DVec4::Z];
     let (mut min, mut max) = (DVec3::ZERO, DVec3::ZERO);
@@ -76,9 +151,9 @@ fn tight_box<P: ControlPoint, const D: usize>(
 }
 
 /// A bound from above on `x/w` over a part of the domain, no more than `tolerance` above its largest value.
-fn reach<const D: usize>(net: Vec<DVec2>, degrees: [usize; D], tolerance: f64) -> Result<f64, ShapeError> {
-    let total = degrees.iter().sum();
-    let whole = Part::new(net, degrees, 0);
+fn reach(net: Vec<DVec2>, domain: &dyn Halving, tolerance: f64) -> Result<f64, ShapeError> {
+    let corners = domain.corners();
+    let whole = Part::new(net, &corners, 0);
     let mut best = whole.at_corners;
     let mut parts = BinaryHeap::from([whole]);
     let mut seen = 1;
@@ -91,7 +166,8 @@ fn reach<const D: usize>(net: Vec<DVec2>, degrees: [usize; D], tolerance: f64) -
             return if part.upper.is_finite() { break } else { Err(ShapeError::Unbounded) };
         }
         let Some(part) = parts.pop() else { break };
-        for half in part.halves(degrees)? {
+        for net in domain.halves(&part.net, part.halvings)? {
+            let half = Part::new(net, &corners, part.halvings + 1);
             best = best.max(half.at_corners);
             seen += 1;
             parts.push(half);
@@ -99,7 +175,7 @@ fn reach<const D: usize>(net: Vec<DVec2>, degrees: [usize; D], tolerance: f64) -
     }
     let Some(part) = parts.peek() else { return Ok(best) };
     // What the halvings that led here may have lost.
-    let rounding = f64::from(part.halvings + 1) * rounding_bound(total, 0, part.size);
+    let rounding = f64::from(part.halvings + 1) * rounding_bound(domain.total_degree(), 0, part.size);
     Ok(part.upper.max(best) + if part.halvings == 0 { 0.0 } else { rounding })
 }
 
@@ -116,7 +192,7 @@ struct Part {
 }
 
 impl Part {
-    fn new<const D: usize>(net: Vec<DVec2>, degrees: [usize; D], halvings: u32) -> Self {
+    fn new(net: Vec<DVec2>, corners: &[usize], halvings: u32) -> Self {
         let sign = net.first().map_or(1.0, |p| p.y.signum());
         let bounded = net.iter().all(|p| p.y * sign > 0.0);
         let values = || net.iter().map(|p| p.x / p.y);
@@ -126,22 +202,10 @@ impl Part {
         } else {
             infinite
         };
-        let corners = (0..1_usize << D).filter_map(|corner| {
-            let place = (0..D)
-                .fold(0, |place, axis| place * (degrees[axis] + 1) + (corner >> axis & 1) * degrees[axis]);
-            net.get(place).map(|p| p.x / p.y).filter(|x| x.is_finite())
-        });
+        let corners =
+            corners.iter().filter_map(|&place| net.get(place).map(|p| p.x / p.y).filter(|x| x.is_finite()));
         let at_corners = corners.fold(f64::NEG_INFINITY, f64::max);
         Self { net, halvings, upper, at_corners, size }
-    }
-
-    /// The two halves, across one axis after another.
-    fn halves<const D: usize>(&self, degrees: [usize; D]) -> Result<[Self; 2], ShapeError> {
-        let axis = self.halvings as usize % D;
-        let mut left = vec![DVec2::ZERO; self.net.len()];
-        let mut right = left.clone();
-        subdivide_along(&self.net, degrees, axis, 0.5, &mut left, &mut right)?;
-        Ok([left, right].map(|net| Self::new(net, degrees, self.halvings + 1)))
     }
 }
 

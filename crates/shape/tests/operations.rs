@@ -201,6 +201,45 @@ proptest! {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
 
+    /// Cutting, turning and elevating a triangle does not change it.
+    #[test]
+    fn triangles(n in 0..5usize, points in vec(space_point(), 15), weights in vec(0.5..2.0, 15), by in 0..4usize, u in 0.1..0.4, v in 0.1..0.4) {
+        let count = (n + 1) * (n + 2) / 2;
+        let (points, weights) = (&points[..count], &weights[..count]);
+        let tolerance = 100.0 * allowed(points, weights, n + by);
+        let triangle = RationalTriangle::new(n, points, weights).unwrap();
+        let at = |s: f64, t: f64| triangle.point(s, t).unwrap();
+        let same = |law, other: &RationalTriangle, map: &dyn Fn(f64, f64) -> [f64; 2]| {
+            laws::equal_surfaces_law(law, true, |s, t| { let [s, t] = map(s, t); at(s, t) }, |s, t| other.point(s, t).unwrap(), tolerance).unwrap();
+        };
+        let higher = triangle.elevated(by).unwrap();
+        same("elevation", &higher, &|s, t| [s, t]);
+        let (back, error) = higher.reduced(n).unwrap();
+        let slack = 1e4 * tolerance;
+        prop_assert!(error <= slack, "{error:e} {slack:e}");
+        laws::equal_surfaces_law("reduction", true, at, |s, t| back.point(s, t).unwrap(), slack).unwrap();
+        same("permutation", &triangle.permuted([2, 0, 1]).unwrap(), &|s, t| [t, 1.0 - s - t]);
+        let corners = [[u, v], [1.0 - u, v], [u, 0.5]];
+        let inside = |s: f64, t: f64| {
+            let r = 1.0 - s - t;
+            [0, 1].map(|axis| s * corners[0][axis] + t * corners[1][axis] + r * corners[2][axis])
+        };
+        same("restriction", &triangle.restricted(corners).unwrap(), &inside);
+        let [a, _, c] = triangle.split_at(u, v).unwrap();
+        same("split, part 0", &a, &|s, t| [s * u, s * v + t]);
+        same("split, part 2", &c, &|s, t| { let r = 1.0 - s - t; [s + r * u, t + r * v] });
+        let (a, b) = triangle.split_edge([0, 2], u).unwrap();
+        same("edge, first", &a, &|s, t| [s + (1.0 - s - t) * (1.0 - u), t]);
+        same("edge, second", &b, &|s, t| [s * (1.0 - u), t]);
+        for (opposite, place) in [|s: f64| [0.0, 1.0 - s], |s: f64| [s, 0.0], |s: f64| [1.0 - s, s]].into_iter().enumerate() {
+            let edge = triangle.edge(opposite).unwrap();
+            laws::equal_curves_law("edge", |s| { let [s, t] = place(s); at(s, t) }, |s| edge.point(s).unwrap(), tolerance).unwrap();
+        }
+        let size = triangle.hull_box().unwrap().diagonal();
+        let tight = triangle.tight_box(1e-4 * size + f64::MIN_POSITIVE).unwrap();
+        prop_assert!(tight.grown(1e-11 * size + f64::MIN_POSITIVE).contains(at(u, v)));
+    }
+
     /// Both bases are one polynomial, over any interval.
     #[test]
     fn conversion(points in vec(space_point(), 12), over in (interval(), interval()), s in 0.0..=1.0, t in 0.0..=1.0) {
@@ -267,6 +306,9 @@ fn boxes_of_known_shapes() {
         assert!((reach.x.max(reach.y) - 4.0).abs() < 1e-5 || reach.x.max(reach.y) < 3.0 + 1e-5, "{reach}");
         assert!((reach.z - 1.0).abs() < 1e-5);
     }
+    let octant = RationalTriangle::sphere_octant(DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z).unwrap();
+    let tight = octant.tight_box(1e-8).unwrap();
+    assert!(tight.min.length() < 2e-8 && tight.max.distance(DVec3::ONE) < 2e-8, "{tight:?}");
     let pole = RationalCurve::new(&[DVec3::ZERO, DVec3::X], &[1.0, -1.0]).unwrap();
     assert_eq!(pole.tight_box(1e-3), Err(ShapeError::Unbounded));
     assert!(matches!(circle.tight_box(0.0), Err(ShapeError::Construction { .. })));
