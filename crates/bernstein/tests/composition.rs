@@ -75,7 +75,7 @@ fn golden_compositions() {
 #[test]
 fn curves_with_polynomial_arguments() {
     let mut hunter = Hunter::new(31);
-    for round in 0..200 {
+    for round in 0..500 {
         let (n, d) = if round == 0 { (12, 3) } else { (hunter.below(7), hunter.below(4)) };
         let outer = hunter.numbers(n + 1);
         let wide = hunter.below(3) == 0;
