@@ -146,6 +146,23 @@ pub enum BernsteinError {
         to: usize,
     },
 
+    /// A simplex does not have such a vertex, or it was named twice.
+    ///
+    /// ```
+    /// use casteljau_bernstein::{BernsteinError, TriangleNet};
+    /// let net = TriangleNet::new(&[0.0, 1.0, 2.0], 1)?;
+    /// let refused = net.split_edge([0, 3], 0.5, &mut [0.0; 3], &mut [0.0; 3]);
+    /// assert_eq!(refused, Err(BernsteinError::Vertices { vertex: 3, vertices: 3 }));
+    /// # Ok::<(), BernsteinError>(())
+    /// ```
+    #[error("vertex {vertex} named twice, or not one of {vertices} vertices, counted from 0")]
+    Vertices {
+        /// The vertex asked for.
+        vertex: usize,
+        /// The number of vertices that there are.
+        vertices: usize,
+    },
+
     /// An interval of length zero, where none is allowed.
     ///
     /// ```

@@ -110,10 +110,12 @@ pub use restriction::{restrict, restrict_along, restrict_tensor};
 pub use roots::{Root, RootKind, roots};
 pub use scheme::{scheme_count, tensor_scheme_count};
 pub use simplex::{
-    MultiIndices, SimplexNet, TetrahedronNet, TriangleNet, last_barycentric, multi_indices, simplex_basis,
-    simplex_basis_partials, simplex_count, simplex_index, simplex_partial_index,
+    MultiIndices, SimplexNet, SimplexSpace, TETRAHEDRON_EIGHTHS, TETRAHEDRON_FACES, TRIANGLE_EDGES,
+    TRIANGLE_QUARTERS, TetrahedronNet, TriangleNet, last_barycentric, multi_indices, simplex_basis,
+    simplex_basis_partials, simplex_count, simplex_from_power, simplex_index, simplex_partial_index,
+    simplex_power_matrix, simplex_power_matrix_inverse,
 };
 pub use space::BernsteinSpace;
 pub use subdivision::{subdivide, subdivide_along};
 pub use tensor::{TensorNet, partial_count, partial_index};
-pub use wedge::WedgeNet;
+pub use wedge::{WedgeNet, WedgeSpace, wedge_from_power};

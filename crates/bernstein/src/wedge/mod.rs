@@ -1,6 +1,15 @@
 //! Polynomials over a wedge: triangle × interval.
 
+mod bounds;
 mod de_casteljau;
+mod degree;
+mod face;
 mod net;
+mod power;
+mod product;
+mod restriction;
+mod space;
 
 pub use net::WedgeNet;
+pub use power::wedge_from_power;
+pub use space::WedgeSpace;
