@@ -117,7 +117,7 @@ fn from_power_line<P: Point>(line: &mut Line<'_, P>, n: usize, [a, b]: [f64; 2])
         // Σ C(last,i) bⁱ dᵢ by Horner's rule, with C(m,i+1)/C(m,i) = (m−i)/(i+1).
         let mut point = line[last];
         for i in (0..last).rev() {
-            point = line[i] + point * (b * (last - i) as f64) / (i + 1) as f64;
+            point = line[i] + point * (b * (last - i) as f64 / (i + 1) as f64);
         }
         if a != 0.0 {
             for i in 0..last {
