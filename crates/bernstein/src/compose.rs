@@ -105,11 +105,46 @@ pub fn compose_simplex<P: Point, S: BernsteinSpace>(
     for coordinate in coordinates {
         check_buffer("coordinates", coordinate.len(), size)?;
     }
+    net_size([degree])?;
     check_buffer("out", out.len(), inner.power(degree).size()?)?;
     let dimension = coordinates.len().checked_sub(1).ok_or(BernsteinError::NoPoints)?;
     check_buffer("outer", outer.len(), simplex_size(degree, dimension))?;
     let powers: Result<Vec<_>, _> = coordinates.iter().map(|c| powers(c, degree, inner)).collect();
-    out.copy_from_slice(&contract_simplex(outer, degree, &powers?, inner)?.points);
+    let leaf = |points: &[P]| constant(points.first().copied().unwrap_or(P::ZERO), inner);
+    out.copy_from_slice(&contract_simplex(outer, degree, &powers?, 1, &leaf)?.points);
+    Ok(())
+}
+
+/// Composition of a wedge with polynomial arguments: three barycentric coordinates of the triangle and the
+/// height.
+///
+/// `degrees` are those of the triangle and of the height, n and o, the outer points in the order of
+/// [`WedgeNet`](crate::WedgeNet). The result lies in `inner.power(n + o)`. The coordinates as for
+/// [`compose_simplex`], the height as an argument of [`compose`]; error and cost as for these.
+///
+/// # Errors
+/// [`BernsteinError::Degree`]; [`BernsteinError::BufferLength`] for `outer`, `coordinates`, `height` and `out`.
+pub fn compose_wedge<P: Point, S: BernsteinSpace>(
+    outer: &[P],
+    degrees: [usize; 2],
+    coordinates: [&[f64]; 3],
+    height: &[f64],
+    inner: S,
+    out: &mut [P],
+) -> Result<(), BernsteinError> {
+    let (size, [n, o]) = (inner.size()?, degrees);
+    for coordinate in coordinates {
+        check_buffer("coordinates", coordinate.len(), size)?;
+    }
+    check_buffer("height", height.len(), size)?;
+    net_size(degrees)?;
+    check_buffer("out", out.len(), inner.power(n.saturating_add(o)).size()?)?;
+    check_buffer("outer", outer.len(), simplex_size(n, 2).saturating_mul(o.saturating_add(1)))?;
+    let rest = complement(height);
+    let along = composed_basis(o, powers(&rest, o, inner)?, powers(height, o, inner)?, inner)?;
+    let across: Result<Vec<_>, _> = coordinates.iter().map(|c| powers(c, n, inner)).collect();
+    let leaf = |line: &[P]| combine(line, &along, inner);
+    out.copy_from_slice(&contract_simplex(outer, n, &across?, o + 1, &leaf)?.points);
     Ok(())
 }
 
@@ -256,25 +291,25 @@ fn simplex_size(degree: usize, dimension: usize) -> usize {
     (1..=dimension).fold(1, |size: usize, k| size.saturating_mul(degree.saturating_add(k)) / k)
 }
 
-/// `Σ n!/α! λ^α P_α`: the points with α₀ = i are a net of the degree n − i in the other coordinates.
+/// `Σ n!/α! λ^α P_α`: the points with α₀ = i are a net of the degree n − i in the other coordinates. Each P_α is
+/// a polynomial itself, which `leaf` makes of `width` points.
 fn contract_simplex<P: Point, S: BernsteinSpace>(
     outer: &[P],
     degree: usize,
     powers: &[Vec<Polynomial<f64, S>>],
-    inner: S,
+    width: usize,
+    leaf: &impl Fn(&[P]) -> Result<Polynomial<P, S>, BernsteinError>,
 ) -> Result<Polynomial<P, S>, BernsteinError> {
-    let Some((first, rest)) = powers.split_first() else {
-        return constant(outer.first().copied().unwrap_or(P::ZERO), inner);
-    };
+    let Some((first, rest)) = powers.split_first() else { return leaf(outer) };
     if rest.is_empty() {
-        return multiply(&first[degree], &constant(outer.first().copied().unwrap_or(P::ZERO), inner)?);
+        return multiply(&first[degree], &leaf(outer)?);
     }
     let (mut sum, mut left) = (None, outer);
-    for i in (0..=degree).rev() {
-        let (face, later) = left.split_at(simplex_size(degree - i, rest.len() - 1));
+    for (i, power) in first.iter().enumerate().take(degree + 1).rev() {
+        let (face, later) = left.split_at(simplex_size(degree - i, rest.len() - 1) * width);
         left = later;
-        let form = contract_simplex(face, degree - i, rest, inner)?;
-        add_product(&mut sum, &first[i], &form, binomial(degree, i))?;
+        let form = contract_simplex(face, degree - i, rest, width, leaf)?;
+        add_product(&mut sum, power, &form, binomial(degree, i))?;
     }
-    sum.map_or_else(|| constant(P::ZERO, inner), Ok)
+    sum.ok_or(BernsteinError::NoPoints)
 }

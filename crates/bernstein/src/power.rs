@@ -117,10 +117,12 @@ fn from_power_line<P: Point>(line: &mut Line<'_, P>, n: usize, [a, b]: [f64; 2])
         // Σ C(last,i) bⁱ dᵢ by Horner's rule, with C(m,i+1)/C(m,i) = (m−i)/(i+1).
         let mut point = line[last];
         for i in (0..last).rev() {
-            point = line[i] + point * (b * (last - i) as f64) / (i + 1) as f64;
+            point = line[i] + point * (b * (last - i) as f64 / (i + 1) as f64);
         }
-        for i in 0..last {
-            line[i] = line[i] + line[i + 1] * a;
+        if a != 0.0 {
+            for i in 0..last {
+                line[i] = line[i] + line[i + 1] * a;
+            }
         }
         line[last] = point;
     }
@@ -131,9 +133,16 @@ fn to_power_line<P: Point>(line: &mut Line<'_, P>, n: usize, [a, b]: [f64; 2]) {
     let length = b - a;
     let (s, t) = (b / length, -a / length);
     for last in (0..=n).rev() {
-        let coefficient = nested_barycentric(last, s, t, line.first(last + 1)) * binomial(n, last);
+        // At a = 0 the first point is the value.
+        let value = if a == 0.0 { line[0] } else { nested_barycentric(last, s, t, line.first(last + 1)) };
+        let coefficient = value * binomial(n, last);
         for i in 0..last {
-            line[i] = (line[i + 1] - line[i]) / length;
+            line[i] = line[i + 1] - line[i];
+        }
+        if length != 1.0 {
+            for i in 0..last {
+                line[i] = line[i] / length;
+            }
         }
         line[last] = coefficient;
     }

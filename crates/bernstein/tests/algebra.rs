@@ -23,7 +23,7 @@ fn count(degrees: &[usize]) -> usize {
 #[test]
 fn products_on_the_interval() {
     let mut hunter = Hunter::new(21);
-    for round in 0..400 {
+    for round in 0..1000 {
         let (m, n) = match round {
             0 => (100, 100),
             1 => (3, 197),
@@ -125,7 +125,7 @@ fn golden_products() {
 #[test]
 fn sums_of_different_degrees() {
     let mut hunter = Hunter::new(23);
-    for _ in 0..300 {
+    for _ in 0..1000 {
         let (a, b) = (hunter.degree(20), hunter.degree(20));
         let (a, b) = (hunter.numbers(a + 1), hunter.numbers(b + 1));
         let mut out = vec![0.0; a.len().max(b.len())];
@@ -258,7 +258,7 @@ fn golden_conversion() {
 #[test]
 fn integrals_and_moments() {
     let mut hunter = Hunter::new(25);
-    for _ in 0..300 {
+    for _ in 0..1000 {
         let n = hunter.degree(30);
         let points = hunter.numbers(n + 1);
         let (q, absolute) = (exacts(&points), absolutes(&exacts(&points)));

@@ -4,8 +4,8 @@
 mod support;
 
 use casteljau_bernstein::{
-    BernsteinError, BernsteinSpace, BoxNet, TensorNet, compose, compose_homogeneous, compose_simplex,
-    last_coordinate, value,
+    BernsteinError, BernsteinSpace, BoxNet, SimplexSpace, TensorNet, TriangleNet, WedgeNet, compose,
+    compose_homogeneous, compose_simplex, compose_wedge, last_coordinate, value,
 };
 
 use support::exact::{Hunter, Q, absolutes, assert_within, choose, exact, exacts, integer};
@@ -75,7 +75,7 @@ fn golden_compositions() {
 #[test]
 fn curves_with_polynomial_arguments() {
     let mut hunter = Hunter::new(31);
-    for round in 0..200 {
+    for round in 0..500 {
         let (n, d) = if round == 0 { (12, 3) } else { (hunter.below(7), hunter.below(4)) };
         let outer = hunter.numbers(n + 1);
         let wide = hunter.below(3) == 0;
@@ -217,8 +217,51 @@ fn simplices_along_curves() {
     }
     let mut out = [0.0];
     assert_eq!(compose_simplex(&[1.0], 0, &[], [0], &mut out), Err(BernsteinError::NoPoints));
+    let refused = compose_simplex(&[1.0], usize::MAX, &[&[0.0]], [0], &mut out);
+    assert_eq!(refused, Err(BernsteinError::Degree { degree: usize::MAX, limit: 500 }));
     let refused = compose_simplex(&[1.0; 3], 1, &[&[0.0], &[0.0]], [0], &mut out);
     assert_eq!(refused, Err(BernsteinError::BufferLength { buffer: "outer", needed: 2, given: 3 }));
+}
+
+/// Wedges along curves and over triangles, by values at parameters.
+#[test]
+fn wedges() {
+    let mut hunter = Hunter::new(35);
+    for _ in 0..100 {
+        let [n, o] = [hunter.below(4), hunter.below(4)];
+        let count = (n + 1) * (n + 2) / 2 * (o + 1);
+        let outer: Vec<f64> = (0..count).map(|_| hunter.unit() * 2.0 - 1.0).collect();
+        let net = WedgeNet::new(&outer, [n, o]).unwrap();
+        // Coordinates that stay inside the wedge: the first two at most a half.
+        let d = hunter.below(4);
+        let mut argument =
+            |size: usize, most: f64| (0..size).map(|_| hunter.unit() * most).collect::<Vec<_>>();
+        let (first, second, height) = (argument(d + 1, 0.5), argument(d + 1, 0.5), argument(d + 1, 1.0));
+        let mut third = vec![0.0; d + 1];
+        last_coordinate(&[&first, &second], &mut third).unwrap();
+        let mut out = vec![0.0; (n + o) * d + 1];
+        compose_wedge(&outer, [n, o], [&first, &second, &third], &height, [d], &mut out).unwrap();
+        for s in [0.0, 0.3, 1.0] {
+            let [x, y, z, w] = [&first, &second, &third, &height].map(|a| value(a, s));
+            // Arguments are rounded, which moves the value by at most u·|p′| ≤ 2·degree·u each.
+            let allowed = 4 * (n + o) * (d + 2) + 32 * (n + o + 1);
+            assert_accurate(value(&out, s), net.value([x, y, z], w), allowed, 0, 1.0, "wedge along a curve");
+        }
+        let space = SimplexSpace::<3>(1);
+        let (first, second, height) = (argument(3, 0.5), argument(3, 0.5), argument(3, 1.0));
+        let mut third = vec![0.0; 3];
+        last_coordinate(&[&first, &second], &mut third).unwrap();
+        let mut out = vec![0.0; space.power(n + o).size().unwrap()];
+        compose_wedge(&outer, [n, o], [&first, &second, &third], &height, space, &mut out).unwrap();
+        let at = [0.2, 0.5, 0.3];
+        let [x, y, z, w] =
+            [&first, &second, &third, &height].map(|a| TriangleNet::new(a, 1).unwrap().value(at));
+        let got = TriangleNet::new(&out, n + o).unwrap().value(at);
+        assert_accurate(got, net.value([x, y, z], w), 64 * (n + o + 1), 0, 1.0, "wedge over a triangle");
+    }
+    let line: &[f64] = &[0.0, 1.0];
+    let refused = compose_wedge(&[0.0; 5], [1, 1], [line; 3], line, [1], &mut [0.0; 3]);
+    assert_eq!(refused, Err(BernsteinError::BufferLength { buffer: "outer", needed: 6, given: 5 }));
 }
 
 /// A rational argument: a parabola run through by t = x/w.

@@ -46,7 +46,7 @@ fn derivative_line(line: &[Q], k: usize, absolute: bool) -> Vec<Q> {
 #[test]
 fn box_values_and_partials() {
     let mut hunter = Hunter::new(3);
-    for round in 0..300 {
+    for round in 0..1000 {
         let degrees = if round == 0 { [8, 8, 1] } else { box_degrees(&mut hunter) };
         let at = [hunter.parameter(), hunter.parameter(), hunter.parameter()];
         let points = hunter.numbers(count(&degrees));
@@ -203,7 +203,7 @@ fn golden_solids() {
 #[test]
 fn blossoms() {
     let mut hunter = Hunter::new(5);
-    for _ in 0..500 {
+    for _ in 0..1000 {
         let n = hunter.degree(60);
         let (points, arguments) = (hunter.numbers(n + 1), (0..n).map(|_| hunter.parameter()));
         let arguments: Vec<f64> = arguments.collect();
@@ -284,7 +284,7 @@ fn elevated_line(line: &[Q], to: usize) -> Vec<Q> {
 #[test]
 fn elevation_of_nets() {
     let mut hunter = Hunter::new(8);
-    for round in 0..200 {
+    for round in 0..500 {
         let (degrees, to) = if round < 2 {
             ([30 * round, 1, 0], [60, 2, 1])
         } else {
@@ -319,7 +319,7 @@ fn restricted_line(line: &[Q], [a, b]: [f64; 2], absolute: bool) -> Vec<Q> {
 #[test]
 fn restriction_to_intervals() {
     let mut hunter = Hunter::new(9);
-    for round in 0..400 {
+    for round in 0..1000 {
         let n = if round == 0 { 30 } else { hunter.degree(10) };
         let points = hunter.numbers(n + 1);
         let interval = [hunter.parameter(), hunter.parameter()];
@@ -379,6 +379,33 @@ fn subdivision_of_nets_is_restriction() {
             let scale = along(&absolutes(&q), &degrees, axis, |line| restricted_line(line, interval, true));
             for ((got, truth), scale) in part.iter().zip(&truth).zip(&scale) {
                 assert_within(*got, truth, scale, factor(degrees[axis], 0), "part");
+            }
+        }
+    }
+}
+
+#[test]
+fn golden_rational_elevation() {
+    for case in cases("degree_elevation.json").iter().filter(|c| c["kind"] == "rational_curve") {
+        let (n, raise) = (size(&case["degree"]), size(&case["raise"]));
+        let weights = numbers(&case["weights"]);
+        let lift = |points: &[f64]| {
+            let mut out = vec![0.0; n + raise + 1];
+            elevate_along(points, [n], 0, n + raise, &mut out).unwrap();
+            out
+        };
+        let lifted = lift(&weights);
+        for (got, exact) in lifted.iter().zip(numbers(&case["expected_weights"])) {
+            assert_accurate(*got, exact, n + raise, 0, exact.abs(), "weight");
+        }
+        for axis in 0..2 {
+            let points = support::component(&case["control_points"], axis);
+            let products: Vec<f64> = points.iter().zip(&weights).map(|(p, w)| p * w).collect();
+            let expected = support::component(&case["expected_points"], axis);
+            let scale = lift(&products.iter().map(|x| x.abs()).collect::<Vec<_>>());
+            for (i, got) in lift(&products).into_iter().enumerate() {
+                let what = "point of a rational curve";
+                assert_accurate(got / lifted[i], expected[i], n + raise + 2, 0, scale[i] / lifted[i], what);
             }
         }
     }
