@@ -135,6 +135,35 @@ pub enum ShapeError {
         pieces: usize,
     },
 
+    /// A weight that is not a positive number, where only such weights are served.
+    ///
+    #[error("control point {place} has the weight {value}, which is not a positive number in range")]
+    Weight {
+        /// Place of the control point in memory, from 0.
+        place: usize,
+        /// Its weight.
+        value: f64,
+    },
+
+    /// A point in space about which a question was asked is not finite or too far away.
+    ///
+    /// ```
+    /// use casteljau_shape::{Curve, CurveProjector, ShapeError, geom::glam::DVec3};
+    /// let line = CurveProjector::new(&Curve::new(vec![DVec3::ZERO, DVec3::X])?)?;
+    /// let refused = line.closest_point(DVec3::new(0.0, f64::INFINITY, 0.0));
+    /// assert_eq!(refused, Err(ShapeError::Query { axis: 1, value: f64::INFINITY }));
+    /// # Ok::<(), ShapeError>(())
+    /// ```
+    #[error(
+        "the query's coordinate {axis}, {value}, is no number below {LARGEST_COORDINATE:e}, by itself or measured by the shape's size"
+    )]
+    Query {
+        /// 0, 1, 2 for x, y, z.
+        axis: usize,
+        /// The coordinate.
+        value: f64,
+    },
+
     /// A kernel refused.
     ///
     /// ```

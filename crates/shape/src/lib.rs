@@ -13,10 +13,12 @@ pub use casteljau_bernstein as bernstein;
 pub use casteljau_geom as geom;
 
 mod arc_length;
+mod closest;
 mod curve;
 mod error;
 mod patch;
 
+pub use closest::{CurveProjector, LocalProjection, PatchProjector, Projection};
 pub use curve::Curve;
 pub use error::{LARGEST_COORDINATE, ShapeError};
 pub use patch::Patch;

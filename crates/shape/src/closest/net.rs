@@ -1,0 +1,191 @@
+//! Homogeneous nets in coordinates of their own: centred, scaled by a power of two, of moderate weights.
+
+use casteljau_bernstein::{MAX_DEGREE, TensorNet};
+use casteljau_geom::UNIT_ROUNDOFF;
+use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
+
+use crate::ShapeError;
+
+/// A net of homogeneous points `(w·x, w·y, w·z, w)`, its centre moved to the origin and its size near 1.
+///
+/// A curve has the degrees (n, 0).
+#[derive(Debug, Clone)]
+pub(super) struct LocalNet {
+    points: Vec<DVec4>,
+    degrees: [usize; 2],
+    centre: DVec3,
+    scale: f64,
+    rounding: f64,
+    /// Largest weight over least.
+    weight_ratio: f64,
+}
+
+/// Value and partial derivatives up to order 2 by the net's parameters, in local coordinates.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LocalJet {
+    pub point: DVec3,
+    pub first: [DVec3; 2],
+    /// `second[k + l] = S_kl`
+    pub second: [DVec3; 3],
+}
+
+impl LocalNet {
+    /// Takes a checked net into local coordinates.
+    ///
+    /// # Errors
+    /// [`ShapeError::Weight`] for a weight that is not positive.
+    pub fn new(points: &[DVec4], degrees: [usize; 2]) -> Result<Self, ShapeError> {
+        for (place, p) in points.iter().enumerate() {
+            if !(p.w > 0.0 && p.w.is_finite() && (1.0 / p.w).is_finite()) {
+                return Err(ShapeError::Weight { place, value: p.w });
+            }
+        }
+        let euclidean = || points.iter().map(|p| p.xyz() / p.w);
+        let (low, high) = euclidean()
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
+        let centre = 0.5 * low + 0.5 * high;
+        let largest = euclidean().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+        let size = (0.5 * (high - low).max_element()).max(UNIT_ROUNDOFF * largest);
+        let scale = power_of_two_below(size).recip();
+        let heaviest_weight = points.iter().map(|p| p.w).fold(0.0, f64::max);
+        let heaviest = power_of_two_below(heaviest_weight).recip();
+        // Multiplying by a power of two rounds nothing but what is beyond notice.
+        let local = |p: &DVec4| ((p.xyz() - centre * p.w) * scale * heaviest).extend(p.w * heaviest);
+        let degree = degrees[0] + degrees[1];
+        Ok(Self {
+            points: points.iter().map(local).collect(),
+            degrees,
+            centre,
+            scale,
+            rounding: (16 * (degree + 2)) as f64 * UNIT_ROUNDOFF * (largest * scale).max(2.0),
+            weight_ratio: heaviest_weight / points.iter().map(|p| p.w).fold(f64::INFINITY, f64::min),
+        })
+    }
+
+    /// The net of one of the four sides: `axis` held at its first or last value.
+    pub fn side(&self, axis: usize, last: bool) -> Self {
+        let [m, n] = self.degrees;
+        let points: Vec<DVec4> = match (axis, last) {
+            (0, false) => self.points[..=n].to_vec(),
+            (0, true) => self.points[m * (n + 1)..].to_vec(),
+            (_, last) => self.points.iter().skip(if last { n } else { 0 }).step_by(n + 1).copied().collect(),
+        };
+        Self { degrees: [points.len() - 1, 0], points, ..*self }
+    }
+
+    pub fn degrees(&self) -> [usize; 2] {
+        self.degrees
+    }
+
+    /// A bound on the error of points in local coordinates, and so on distances.
+    pub fn rounding(&self) -> f64 {
+        self.rounding
+    }
+
+    /// A bound on the error of the first derivative along an axis, at the parameter t of that axis.
+    ///
+    /// The parts `m Bᵢᵐ⁻¹ wᵢ₊₁` of the derivative are `(i+1) Bᵢ₊₁ᵐ wᵢ₊₁/t`, at most m/t of w, and at most the
+    /// ratio of the weights; likewise with 1 − t.
+    pub fn slope_rounding(&self, axis: usize, t: f64) -> f64 {
+        let part = |t: f64| t.recip().min(self.weight_ratio);
+        self.rounding * self.degrees[axis] as f64 * (part(t) + part(1.0 - t))
+    }
+
+    /// A point of space in local coordinates.
+    pub fn local(&self, q: DVec3) -> DVec3 {
+        (q - self.centre) * self.scale
+    }
+
+    /// A lower bound of the distance, in the coordinates of the shape, from one of φ; at most `distance`.
+    pub fn certified(&self, phi: f64, distance: f64) -> f64 {
+        let local = (2.0 * phi.max(0.0)).sqrt() * (1.0 - 8.0 * UNIT_ROUNDOFF) - self.rounding;
+        (local.max(0.0) / self.scale).min(distance)
+    }
+
+    /// Value and derivatives at a place of `[0, 1]²`.
+    #[inline]
+    pub fn jet(&self, at: [f64; 2]) -> LocalJet {
+        let mut jet = [DVec4::ZERO; 6];
+        TensorNet::validated(&self.points, self.degrees).partials(at[0], at[1], &mut jet);
+        let w = jet[0].w;
+        if self.weight_ratio == 1.0 {
+            let [point, du, dv, duu, duv, dvv] = jet.map(|p| p.xyz() / w);
+            return LocalJet { point, first: [du, dv], second: [duu, duv, dvv] };
+        }
+        let point = jet[0].xyz() / w;
+        let first = [1, 2].map(|k| (jet[k].xyz() - point * jet[k].w) / w);
+        let second = [(0, 0), (0, 1), (1, 1)].map(|(k, l)| {
+            let bend = jet[3 + k + l];
+            let carried = first[k] * jet[1 + l].w + first[l] * jet[1 + k].w + point * bend.w;
+            (bend.xyz() - carried) / w
+        });
+        LocalJet { point, first, second }
+    }
+
+    /// The net of the part over a box of `[0, 1]²`, by cutting twice along each axis.
+    pub fn restrict(&self, area: &[[f64; 2]], out: &mut Vec<DVec4>) {
+        out.clear();
+        out.extend_from_slice(&self.points);
+        let stride = self.degrees[1] + 1;
+        for (axis, &[from, to]) in area.iter().enumerate() {
+            // Rows are `stride` apart along u; along v each row is a line of its own.
+            let (lines, count, step) = if axis == 0 {
+                (stride, self.degrees[0] + 1, stride)
+            } else {
+                (self.degrees[0] + 1, stride, 1)
+            };
+            for line in 0..lines {
+                let origin = if axis == 0 { line } else { line * stride };
+                let at = |i: usize| origin + i * step;
+                if to < 1.0 {
+                    // The first part of a cut at `to`: the diagonal of de Casteljau's scheme.
+                    for level in 1..count {
+                        for i in (level..count).rev() {
+                            out[at(i)] = out[at(i - 1)] * (1.0 - to) + out[at(i)] * to;
+                        }
+                    }
+                }
+                if from > 0.0 {
+                    let t = from / to;
+                    for level in 1..count {
+                        for i in 0..count - level {
+                            out[at(i)] = out[at(i)] * (1.0 - t) + out[at(i + 1)] * t;
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The derivative along one axis by the local parameter of `[−1, 1]`, at the degree of the net itself:
+/// `½((m−i) (Pᵢ₊₁ − Pᵢ) + i (Pᵢ − Pᵢ₋₁))`.
+pub(super) fn derivative_net(net: &[DVec4], degrees: [usize; 2], axis: usize, out: &mut Vec<DVec4>) {
+    let stride = degrees[1] + 1;
+    let step = if axis == 0 { stride } else { 1 };
+    out.clear();
+    out.extend((0..net.len()).map(|place| {
+        let i = if axis == 0 { place / stride } else { place % stride };
+        let rest = degrees[axis] - i;
+        let mut sum = DVec4::ZERO;
+        if rest > 0 {
+            sum += (net[place + step] - net[place]) * (0.5 * rest as f64);
+        }
+        if i > 0 {
+            sum += (net[place] - net[place - step]) * (0.5 * i as f64);
+        }
+        sum
+    }));
+}
+
+/// The checked homogeneous net of a polynomial shape.
+pub(super) fn homogeneous(points: &[DVec3]) -> Vec<DVec4> {
+    debug_assert!(points.len() <= (MAX_DEGREE + 1) * (MAX_DEGREE + 1));
+    points.iter().map(|p| p.extend(1.0)).collect()
+}
+
+/// The largest power of two that is not above a positive number; 1 for 0.
+fn power_of_two_below(x: f64) -> f64 {
+    // The sign and fraction bits removed; subnormal numbers become the smallest normal one.
+    if x > 0.0 { f64::from_bits(x.max(f64::MIN_POSITIVE).to_bits() & (0x7ff << 52)) } else { 1.0 }
+}
