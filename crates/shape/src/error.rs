@@ -137,6 +137,11 @@ pub enum ShapeError {
 
     /// A weight that is not a positive number, where only such weights are served.
     ///
+    /// ```
+    /// use casteljau_shape::{CurveProjector, ShapeError, geom::glam::DVec4};
+    /// let refused = CurveProjector::from_homogeneous(&[DVec4::W, -DVec4::W]);
+    /// assert_eq!(refused.err(), Some(ShapeError::Weight { place: 1, value: -1.0 }));
+    /// ```
     #[error("control point {place} has the weight {value}, which is not a positive number in range")]
     Weight {
         /// Place of the control point in memory, from 0.

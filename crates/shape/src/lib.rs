@@ -18,7 +18,7 @@ mod curve;
 mod error;
 mod patch;
 
-pub use closest::{CurveProjector, LocalProjection, PatchProjector, Projection};
+pub use closest::{CurveProjector, LocalMinima, LocalMinimum, LocalProjection, PatchProjector, Projection};
 pub use curve::Curve;
 pub use error::{LARGEST_COORDINATE, ShapeError};
 pub use patch::Patch;

@@ -3,10 +3,12 @@
 use casteljau_bernstein::value;
 use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
 
+use super::minima::{clusters, sign};
 use super::net::{LocalNet, homogeneous};
-use super::newton::descend;
+use super::newton::{descend, evaluate};
 use super::tree::{Best, Tree};
-use super::{LocalProjection, Projection, check_query};
+use super::{LocalMinima, LocalMinimum, LocalProjection, Projection, check_query};
+use crate::error::check_degree;
 use crate::{Curve, ShapeError};
 
 /// A curve prepared for questions about its closest points, `min |C(t) − q|` over `[0, 1]`.
@@ -32,7 +34,7 @@ impl CurveProjector {
     /// Cost: 64 restrictions of the curve, 50 µs for a cubic.
     ///
     /// # Errors
-    /// None for a polynomial curve; [`ShapeError::Weight`] is for rational ones.
+    /// None that a constructed curve could provoke.
     pub fn new(curve: &Curve) -> Result<Self, ShapeError> {
         Self::from_homogeneous(&homogeneous(curve.control_points()))
     }
@@ -40,9 +42,11 @@ impl CurveProjector {
     /// Prepares the curve with homogeneous control points `(w·x, w·y, w·z, w)`.
     ///
     /// # Errors
-    /// [`ShapeError::NoControlPoints`]; [`ShapeError::Weight`] for a weight that is not positive.
-    pub(crate) fn from_homogeneous(points: &[DVec4]) -> Result<Self, ShapeError> {
+    /// [`ShapeError::NoControlPoints`], [`ShapeError::Degree`], [`ShapeError::Coordinate`];
+    /// [`ShapeError::Weight`] for a weight that is not positive.
+    pub fn from_homogeneous(points: &[DVec4]) -> Result<Self, ShapeError> {
         let degree = points.len().checked_sub(1).ok_or(ShapeError::NoControlPoints)?;
+        check_degree(degree)?;
         let net = LocalNet::new(points, [degree, 0])?;
         Ok(Self { control_points: points.to_vec(), tree: Tree::new(net) })
     }
@@ -59,11 +63,9 @@ impl CurveProjector {
         check_query(q, local)?;
         let mut best = Best::new(f64::INFINITY, self.tree.net.rounding());
         self.tree.search(local, &mut best);
-        let at = best.at.unwrap_or([0.0]);
-        let end = descend(&self.tree.net, local, at);
-        let at = if end.phi <= best.phi { end.at } else { at };
+        let at = best.place(&self.tree.net, local).unwrap_or_default();
         let (point, distance) = self.measured(q, at);
-        let lower_bound = self.tree.net.certified(best.lower, distance);
+        let lower_bound = self.tree.net.certified(best.bound(), distance);
         Ok(Projection { parameters: at, point, distance, lower_bound })
     }
 
@@ -86,9 +88,55 @@ impl CurveProjector {
         Ok(LocalProjection { parameters: end.at, point, distance, converged: end.converged })
     }
 
+    /// All local minima of the distance over the curve, its ends included, each proved and isolated.
+    ///
+    /// Cost: some 10 µs for a cubic; up to 20,000 pieces are looked at.
+    ///
+    /// ```
+    /// use casteljau_shape::{Curve, CurveProjector, geom::glam::DVec3};
+    /// let parabola = Curve::new(vec![DVec3::NEG_X + DVec3::Y, DVec3::NEG_Y, DVec3::X + DVec3::Y])?; // y = x²
+    /// let found = CurveProjector::new(&parabola)?.local_minima(DVec3::new(0.0, 0.8, 0.0))?;
+    /// assert!(found.unresolved.is_empty());
+    /// let [left, right] = found.minima[..] else { panic!() };
+    /// assert!((left.distance - 0.55_f64.sqrt()).abs() < 1e-14 && (right.distance - left.distance).abs() < 1e-14);
+    /// # Ok::<(), casteljau_shape::ShapeError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ShapeError::Query`] as for [`closest_point`](Self::closest_point).
+    pub fn local_minima(&self, q: DVec3) -> Result<LocalMinima<1>, ShapeError> {
+        let local = self.tree.net.local(q);
+        check_query(q, local)?;
+        let found = self.tree.minima(local);
+        let mut answer = LocalMinima::default();
+        let mut minimum = |parameters: [f64; 1], uncertainty| {
+            let (point, distance) = self.measured(q, parameters);
+            answer.minima.push(LocalMinimum { parameters, uncertainty, point, distance });
+        };
+        for known in &found.isolated {
+            minimum(known.at.at, known.radius);
+        }
+        let mut unresolved = found.unresolved.clone();
+        for (end, inward) in [(0.0, 1.0), (1.0, -1.0)] {
+            let area = [[end, end]];
+            if found.covers(&area) {
+                continue;
+            }
+            let at = evaluate(&self.tree.net, local, [end]);
+            match sign(inward * at.gradient[0], self.tree.gradient_rounding(&at, 0)) {
+                Some(true) => minimum([end], [0.0]),
+                Some(false) => {}
+                None => unresolved.push(area),
+            }
+        }
+        answer.unresolved = clusters(unresolved);
+        answer.minima.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+        Ok(answer)
+    }
+
     pub(super) fn measured(&self, q: DVec3, at: [f64; 1]) -> (DVec3, f64) {
         let p = value(&self.control_points, at[0]);
         let point = p.xyz() / p.w;
-        (point, point.distance(q))
+        (point, self.tree.net.distance(point, q))
     }
 }

@@ -5,8 +5,9 @@
 //! one aside for a reason that holds in spite of rounding:
 //!
 //! * nothing in it is closer to q than what was found already,
-//! * one component of the gradient of `½|S − q|²` keeps its sign there, so that minima can only lie on sides,
-//!   which are curves with trees of their own, and at corners,
+//! * one component of the gradient of `½|S − q|²` keeps its sign there, or the Hessian is nowhere positive
+//!   semidefinite, so that minima can only lie on sides, which are curves with trees of their own, and at
+//!   corners,
 //! * `½|S − q|²` is convex there: Newton's method finds its minimum, and value and gradient at that place
 //!   bound it from below.
 //!
@@ -22,6 +23,7 @@
 //! and convexity tests).
 
 mod curve;
+mod minima;
 mod net;
 mod newton;
 mod patch;
@@ -32,6 +34,7 @@ mod tree;
 use casteljau_geom::glam::DVec3;
 
 pub use curve::CurveProjector;
+pub use minima::{LocalMinima, LocalMinimum};
 pub use patch::PatchProjector;
 
 use crate::{LARGEST_COORDINATE, ShapeError};

@@ -1,10 +1,14 @@
 //! Homogeneous nets in coordinates of their own: centred, scaled by a power of two, of moderate weights.
 
-use casteljau_bernstein::{MAX_DEGREE, TensorNet};
+use casteljau_bernstein::TensorNet;
 use casteljau_geom::UNIT_ROUNDOFF;
 use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
 
 use crate::ShapeError;
+use crate::error::check_points;
+
+/// Below this degree the bases of a place are kept on the stack.
+const BASIS_ON_STACK: usize = 24;
 
 /// A net of homogeneous points `(w·x, w·y, w·z, w)`, its centre moved to the origin and its size near 1.
 ///
@@ -33,14 +37,16 @@ impl LocalNet {
     /// Takes a checked net into local coordinates.
     ///
     /// # Errors
-    /// [`ShapeError::Weight`] for a weight that is not positive.
+    /// [`ShapeError::Weight`] for a weight that is not positive, [`ShapeError::Coordinate`] for one out of range.
     pub fn new(points: &[DVec4], degrees: [usize; 2]) -> Result<Self, ShapeError> {
         for (place, p) in points.iter().enumerate() {
             if !(p.w > 0.0 && p.w.is_finite() && (1.0 / p.w).is_finite()) {
                 return Err(ShapeError::Weight { place, value: p.w });
             }
         }
-        let euclidean = || points.iter().map(|p| p.xyz() / p.w);
+        let points_in_space: Vec<DVec3> = points.iter().map(|p| p.xyz() / p.w).collect();
+        check_points(&points_in_space)?;
+        let euclidean = || points_in_space.iter().copied();
         let (low, high) = euclidean()
             .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
         let centre = 0.5 * low + 0.5 * high;
@@ -64,13 +70,18 @@ impl LocalNet {
 
     /// The net of one of the four sides: `axis` held at its first or last value.
     pub fn side(&self, axis: usize, last: bool) -> Self {
-        let [m, n] = self.degrees;
-        let points: Vec<DVec4> = match (axis, last) {
-            (0, false) => self.points[..=n].to_vec(),
-            (0, true) => self.points[m * (n + 1)..].to_vec(),
-            (_, last) => self.points.iter().skip(if last { n } else { 0 }).step_by(n + 1).copied().collect(),
-        };
+        let points = self.line(axis, if last { self.degrees[axis] } else { 0 });
         Self { degrees: [points.len() - 1, 0], points, ..*self }
+    }
+
+    /// The control points of row i along v (axis 0), or of column i along u (axis 1).
+    pub fn line(&self, axis: usize, i: usize) -> Vec<DVec4> {
+        let stride = self.degrees[1] + 1;
+        if axis == 0 {
+            self.points[i * stride..(i + 1) * stride].to_vec()
+        } else {
+            self.points.iter().skip(i).step_by(stride).copied().collect()
+        }
     }
 
     pub fn degrees(&self) -> [usize; 2] {
@@ -80,6 +91,11 @@ impl LocalNet {
     /// A bound on the error of points in local coordinates, and so on distances.
     pub fn rounding(&self) -> f64 {
         self.rounding
+    }
+
+    /// What the bound of a piece's radius is for a shape that is a single point.
+    pub fn rounding_of_points(&self) -> f64 {
+        self.rounding * self.weight_ratio
     }
 
     /// A bound on the error of the first derivative along an axis, at the parameter t of that axis.
@@ -96,6 +112,11 @@ impl LocalNet {
         (q - self.centre) * self.scale
     }
 
+    /// The distance of two points given in the coordinates of the shape; their squares need not be in range.
+    pub fn distance(&self, p: DVec3, q: DVec3) -> f64 {
+        ((p - q) * self.scale).length() / self.scale
+    }
+
     /// A lower bound of the distance, in the coordinates of the shape, from one of φ; at most `distance`.
     pub fn certified(&self, phi: f64, distance: f64) -> f64 {
         let local = (2.0 * phi.max(0.0)).sqrt() * (1.0 - 8.0 * UNIT_ROUNDOFF) - self.rounding;
@@ -105,8 +126,7 @@ impl LocalNet {
     /// Value and derivatives at a place of `[0, 1]²`.
     #[inline]
     pub fn jet(&self, at: [f64; 2]) -> LocalJet {
-        let mut jet = [DVec4::ZERO; 6];
-        TensorNet::validated(&self.points, self.degrees).partials(at[0], at[1], &mut jet);
+        let jet = self.homogeneous_jet(at);
         let w = jet[0].w;
         if self.weight_ratio == 1.0 {
             let [point, du, dv, duu, duv, dvv] = jet.map(|p| p.xyz() / w);
@@ -120,6 +140,33 @@ impl LocalNet {
             (bend.xyz() - carried) / w
         });
         LocalJet { point, first, second }
+    }
+
+    /// The homogeneous derivatives 1; u, v; uu, uv, vv.
+    #[inline]
+    fn homogeneous_jet(&self, [u, v]: [f64; 2]) -> [DVec4; 6] {
+        let [m, n] = self.degrees;
+        let mut jet = [DVec4::ZERO; 6];
+        if m.max(n) >= BASIS_ON_STACK {
+            TensorNet::validated(&self.points, self.degrees).partials(u, v, &mut jet);
+            return jet;
+        }
+        // The basis once for all rows: a fraction of the work of evaluating row by row.
+        let (along, across) = (Basis::new(m, u), Basis::new(n, v));
+        for (i, row) in self.points.chunks_exact(n + 1).enumerate() {
+            let mut line = [DVec4::ZERO; 3];
+            for (j, &p) in row.iter().enumerate() {
+                for (k, sum) in line.iter_mut().enumerate() {
+                    *sum += p * across.rows[k][j];
+                }
+            }
+            let [b, b1, b2] = along.rows.each_ref().map(|row| row[i]);
+            let parts = [line[0] * b, line[0] * b1, line[1] * b, line[0] * b2, line[1] * b1, line[2] * b];
+            for (sum, part) in jet.iter_mut().zip(parts) {
+                *sum += part;
+            }
+        }
+        jet
     }
 
     /// The net of the part over a box of `[0, 1]²`, by cutting twice along each axis.
@@ -158,6 +205,54 @@ impl LocalNet {
     }
 }
 
+/// A Bernstein basis with its first two derivatives.
+struct Basis {
+    rows: [[f64; BASIS_ON_STACK]; 3],
+}
+
+impl Basis {
+    /// By the recurrence `Bᵢⁿ = (1−t) Bᵢⁿ⁻¹ + t Bᵢ₋₁ⁿ⁻¹`, and differences on the way:
+    /// `(Bᵢⁿ)′ = n (Bᵢ₋₁ⁿ⁻¹ − Bᵢⁿ⁻¹)`, `(Bᵢⁿ)″ = n(n−1) (Bᵢ₋₂ⁿ⁻² − 2Bᵢ₋₁ⁿ⁻² + Bᵢⁿ⁻²)`.
+    #[inline]
+    fn new(degree: usize, t: f64) -> Self {
+        let s = 1.0 - t;
+        let mut rows = [[0.0; BASIS_ON_STACK]; 3];
+        let [b, b1, b2] = &mut rows;
+        b[0] = 1.0;
+        for n in 1..=degree {
+            if n + 1 == degree {
+                differences(b, b2, n);
+            }
+            if n == degree {
+                differences(b, b1, n);
+                let factor = n as f64;
+                // The second differences were taken one degree below: once more.
+                for i in (1..=n).rev() {
+                    b2[i] = factor * (b2[i - 1] - b2[i]);
+                }
+                b2[0] *= -factor;
+            }
+            b[n] = t * b[n - 1];
+            for i in (1..n).rev() {
+                b[i] = s * b[i] + t * b[i - 1];
+            }
+            b[0] *= s;
+        }
+        Self { rows }
+    }
+}
+
+/// `n (Bᵢ₋₁ − Bᵢ)` for the basis of degree n − 1.
+#[inline]
+fn differences(basis: &[f64; BASIS_ON_STACK], out: &mut [f64; BASIS_ON_STACK], n: usize) {
+    let factor = n as f64;
+    out[0] = -factor * basis[0];
+    for i in 1..n {
+        out[i] = factor * (basis[i - 1] - basis[i]);
+    }
+    out[n] = factor * basis[n - 1];
+}
+
 /// The derivative along one axis by the local parameter of `[−1, 1]`, at the degree of the net itself:
 /// `½((m−i) (Pᵢ₊₁ − Pᵢ) + i (Pᵢ − Pᵢ₋₁))`.
 pub(super) fn derivative_net(net: &[DVec4], degrees: [usize; 2], axis: usize, out: &mut Vec<DVec4>) {
@@ -180,7 +275,6 @@ pub(super) fn derivative_net(net: &[DVec4], degrees: [usize; 2], axis: usize, ou
 
 /// The checked homogeneous net of a polynomial shape.
 pub(super) fn homogeneous(points: &[DVec3]) -> Vec<DVec4> {
-    debug_assert!(points.len() <= (MAX_DEGREE + 1) * (MAX_DEGREE + 1));
     points.iter().map(|p| p.extend(1.0)).collect()
 }
 

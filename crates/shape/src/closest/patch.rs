@@ -1,12 +1,14 @@
 //! The closest point of a patch.
 
-use casteljau_bernstein::TensorNet;
+use casteljau_bernstein::{TensorNet, value};
 use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
 
+use super::minima::{clusters, sign};
 use super::net::{LocalNet, homogeneous};
-use super::newton::descend;
+use super::newton::{descend, evaluate};
 use super::tree::{Best, Tree};
-use super::{LocalProjection, Projection, check_query};
+use super::{LocalMinima, LocalMinimum, LocalProjection, Projection, check_query};
+use crate::error::check_degree;
 use crate::{Patch, ShapeError};
 
 /// A patch prepared for questions about its closest points, `min |S(u,v) − q|` over `[0, 1]²`.
@@ -41,6 +43,22 @@ impl Side {
     pub fn parameters(&self, t: f64) -> [f64; 2] {
         if self.held == 0 { [self.value, t] } else { [t, self.value] }
     }
+
+    /// The box of the patch's parameters that belongs to a stretch of the side.
+    fn area(&self, stretch: [f64; 2]) -> [[f64; 2]; 2] {
+        let held = [self.value; 2];
+        if self.held == 0 { [held, stretch] } else { [stretch, held] }
+    }
+
+    /// An uncertainty along the side, as one of the patch's parameters.
+    fn extent(&self, radius: f64) -> [f64; 2] {
+        if self.held == 0 { [0.0, radius] } else { [radius, 0.0] }
+    }
+}
+
+/// The place of a corner among four.
+fn corner_place([u, v]: [f64; 2]) -> usize {
+    usize::from(u > 0.5) + 2 * usize::from(v > 0.5)
 }
 
 impl PatchProjector {
@@ -49,7 +67,7 @@ impl PatchProjector {
     /// Cost: some 1000 restrictions of the net, 2 ms for a bicubic patch; 300 kB at most, whatever the degree.
     ///
     /// # Errors
-    /// None for a polynomial patch; [`ShapeError::Weight`] is for rational ones.
+    /// None that a constructed patch could provoke.
     pub fn new(patch: &Patch) -> Result<Self, ShapeError> {
         Self::from_homogeneous(patch.degrees(), &homogeneous(patch.control_points()))
     }
@@ -57,8 +75,12 @@ impl PatchProjector {
     /// Prepares the patch with homogeneous control points `(w·x, w·y, w·z, w)`.
     ///
     /// # Errors
-    /// [`ShapeError::NetSize`]; [`ShapeError::Weight`] for a weight that is not positive.
-    pub(crate) fn from_homogeneous(degrees: [usize; 2], points: &[DVec4]) -> Result<Self, ShapeError> {
+    /// [`ShapeError::NetSize`], [`ShapeError::Degree`], [`ShapeError::Coordinate`];
+    /// [`ShapeError::Weight`] for a weight that is not positive.
+    pub fn from_homogeneous(degrees: [usize; 2], points: &[DVec4]) -> Result<Self, ShapeError> {
+        for degree in degrees {
+            check_degree(degree)?;
+        }
         let (needed, given) = ((degrees[0] + 1) * (degrees[1] + 1), points.len());
         if needed != given {
             return Err(ShapeError::NetSize { degrees, needed, given });
@@ -88,18 +110,16 @@ impl PatchProjector {
         check_query(q, local)?;
         let mut best = Best::new(f64::INFINITY, net.rounding());
         self.interior.search(local, &mut best);
-        let mut at = best.at.unwrap_or([0.0; 2]);
-        let (mut phi, mut lower) = (best.phi, best.lower);
+        let mut at = best.place(net, local).unwrap_or_default();
+        let (mut phi, mut lower) = (best.phi, best.bound());
         for side in &self.sides {
             let mut best = Best::new(phi, net.rounding());
             side.tree.search(local, &mut best);
-            lower = lower.min(best.lower);
-            if let Some([t]) = best.at {
+            lower = lower.min(best.bound());
+            if let Some([t]) = best.place(&side.tree.net, local) {
                 (at, phi) = (side.parameters(t), best.phi);
             }
         }
-        let end = descend(net, local, at);
-        let at = if end.phi <= phi { end.at } else { at };
         let (point, distance) = self.measured(q, at);
         Ok(Projection { parameters: at, point, distance, lower_bound: net.certified(lower, distance) })
     }
@@ -124,9 +144,121 @@ impl PatchProjector {
         Ok(LocalProjection { parameters: end.at, point, distance, converged: end.converged })
     }
 
+    /// All local minima of the distance over the patch, sides and corners included, each proved and isolated.
+    ///
+    /// A side that is collapsed to a point counts as one minimum, given at its middle, if every direction
+    /// leads away from q there. Cost: some 100 µs for a bicubic patch; up to 20,000 pieces are looked at, and
+    /// as many on each side.
+    ///
+    /// # Errors
+    /// [`ShapeError::Query`] as for [`closest_point`](Self::closest_point).
+    pub fn local_minima(&self, q: DVec3) -> Result<LocalMinima<2>, ShapeError> {
+        let local = self.interior.net.local(q);
+        check_query(q, local)?;
+        let found = self.interior.minima(local);
+        let mut answer = LocalMinima::default();
+        let mut keep = |parameters: [f64; 2], uncertainty| {
+            let (point, distance) = self.measured(q, parameters);
+            answer.minima.push(LocalMinimum { parameters, uncertainty, point, distance });
+        };
+        for known in &found.isolated {
+            keep(known.at.at, known.radius);
+        }
+        let mut unresolved = found.unresolved.clone();
+        let mut open_corners = [true; 4];
+        for side in &self.sides {
+            if side.tree.is_point() {
+                match self.collapsed(local, side) {
+                    Some(true) => keep(side.parameters(0.5), side.extent(0.5)),
+                    Some(false) => {}
+                    None => unresolved.push(side.area([0.0, 1.0])),
+                }
+                for t in [0.0, 1.0] {
+                    open_corners[corner_place(side.parameters(t))] = false;
+                }
+                continue;
+            }
+            let on_side = side.tree.minima(local);
+            for known in &on_side.isolated {
+                let ([t], [radius]) = (known.at.at, known.radius);
+                if t - radius <= 0.0 || t + radius >= 1.0 {
+                    continue; // a corner, if anything
+                }
+                let area = side.area([t - radius, t + radius]);
+                if !found.covers(&area) {
+                    match self.leads_away(local, side, t, radius) {
+                        Some(true) => keep(side.parameters(t), side.extent(radius)),
+                        Some(false) => {}
+                        None => unresolved.push(area),
+                    }
+                }
+            }
+            for &[[from, to]] in &on_side.unresolved {
+                let (middle, radius) = (0.5 * (from + to), 0.5 * (to - from));
+                let area = side.area([from, to]);
+                if !found.covers(&area) && self.leads_away(local, side, middle, radius) != Some(false) {
+                    unresolved.push(area);
+                }
+            }
+        }
+        for (place, _) in open_corners.iter().enumerate().filter(|(_, open)| **open) {
+            let corner = [(place & 1) as f64, (place >> 1) as f64];
+            let area = corner.map(|x| [x, x]);
+            if found.covers(&area) {
+                continue;
+            }
+            let at = evaluate(&self.interior.net, local, corner);
+            let signs = [0, 1].map(|k| {
+                let inward = if corner[k] == 0.0 { at.gradient[k] } else { -at.gradient[k] };
+                sign(inward, self.interior.gradient_rounding(&at, k))
+            });
+            if signs == [Some(true); 2] {
+                keep(corner, [0.0; 2]);
+            } else if !signs.contains(&Some(false)) {
+                unresolved.push(area);
+            }
+        }
+        answer.unresolved = clusters(unresolved);
+        answer.minima.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+        Ok(answer)
+    }
+
+    /// Whether φ grows inwards on all of a side within `radius` of t.
+    fn leads_away(&self, q: DVec3, side: &Side, t: f64, radius: f64) -> Option<bool> {
+        let at = evaluate(&self.interior.net, q, side.parameters(t));
+        let jet = self.interior.net.jet(at.at);
+        let k = side.held;
+        let inward = if side.value == 0.0 { at.gradient[k] } else { -at.gradient[k] };
+        // φ_uv changes by less than itself over so short a stretch.
+        let mixed = at.speed[0] * at.speed[1] + at.distance * jet.second[1].length();
+        sign(inward, self.interior.gradient_rounding(&at, k) + 2.0 * mixed * radius)
+    }
+
+    /// Whether φ grows inwards all along a side that is collapsed to the point P.
+    ///
+    /// There S_n = m Σ Bⱼ (A₁ⱼ − P w₁ⱼ) / Σ Bⱼ w₀ⱼ, with the net's row beside the side.
+    fn collapsed(&self, q: DVec3, side: &Side) -> Option<bool> {
+        let net = &self.interior.net;
+        let degree = net.degrees()[side.held];
+        if degree == 0 {
+            return None;
+        }
+        let pole = net.jet(side.parameters(0.5)).point;
+        let next = net.line(side.held, if side.value == 0.0 { 1 } else { degree - 1 });
+        let away: Vec<f64> = next.iter().map(|p| (pole - q).dot(p.xyz() - pole * p.w)).collect();
+        let unsure = |w: f64| 4.0 * net.rounding() * w * (pole.distance(q) + 1.0);
+        if away.iter().zip(&next).all(|(&x, p)| x > unsure(p.w)) {
+            return Some(true);
+        }
+        let heaviest = next.iter().map(|p| p.w).fold(0.0, f64::max);
+        let samples = 4 * next.len();
+        let toward = |i: usize| value(&away, i as f64 / samples as f64) < -unsure(heaviest);
+        (0..=samples).any(toward).then_some(false)
+    }
+
     pub(super) fn measured(&self, q: DVec3, [u, v]: [f64; 2]) -> (DVec3, f64) {
         let p = TensorNet::validated(&self.control_points, self.degrees).value(u, v);
         let point = p.xyz() / p.w;
-        (point, point.distance(q))
+        (point, self.interior.net.distance(point, q))
     }
 }

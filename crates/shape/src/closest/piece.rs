@@ -46,8 +46,9 @@ pub(super) struct Assessment<const D: usize> {
     pub lower: f64,
     /// φ in the middle.
     pub middle: f64,
-    /// One component of the gradient keeps its sign: no critical point.
-    pub monotone: bool,
+    /// There is no minimum but on the sides of `[0, 1]ᴰ`: a component of the gradient keeps its sign, or the
+    /// Hessian is nowhere positive semidefinite.
+    pub barren: bool,
     /// φ is strictly convex: its Hessian is above the diagonal matrix of these positive numbers.
     pub convex: Option<[f64; D]>,
     /// The most that each component of the gradient can change away from the middle.
@@ -138,6 +139,11 @@ impl<const D: usize> Piece<D> {
         piece.center.is_finite().then_some(piece)
     }
 
+    /// A bound of |S − S(0)|.
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
     /// How far the piece is from affine, as a length, by axis: what decides where a tree is refined.
     pub fn nonlinearity(&self) -> [f64; D] {
         std::array::from_fn(|k| {
@@ -161,7 +167,7 @@ impl<const D: usize> Piece<D> {
             return Assessment {
                 lower: ball,
                 middle,
-                monotone: true,
+                barren: true,
                 convex: None,
                 spread: [0.0; D],
                 start: [0.0; D],
@@ -176,7 +182,7 @@ impl<const D: usize> Piece<D> {
         let mut model = middle - 8.0 * UNIT_ROUNDOFF * square;
         let mut spread = [0.0; D];
         let mut start = [0.0; D];
-        let mut monotone = false;
+        let mut barren = false;
         for k in 0..D {
             for l in 0..D {
                 spread[k] += hessian[k][l].abs() + change[k][l];
@@ -186,10 +192,11 @@ impl<const D: usize> Piece<D> {
             let (place, least) = least_on(gradient[k], hessian[k][k], [-1.0, 1.0]);
             start[k] = place;
             model += least;
-            monotone |= gradient[k].abs() > spread[k];
+            barren |= gradient[k].abs() > spread[k];
         }
         let convex = positive_diagonal(&hessian, &change);
-        Assessment { lower: model.max(ball), middle, monotone, convex, spread, start }
+        let barren = barren || nowhere_positive(&hessian, &change);
+        Assessment { lower: model.max(ball), middle, barren, convex, spread, start }
     }
 }
 
@@ -210,6 +217,17 @@ fn positive_diagonal<const D: usize>(hessian: &[[f64; D]; D], change: &[[f64; D]
         _ => 0.0,
     };
     (coupling < 1.0).then(|| diagonal.map(|x| x * (1.0 - coupling)))
+}
+
+/// Whether no symmetric matrix within `change` of `hessian` is positive semidefinite.
+#[inline]
+fn nowhere_positive<const D: usize>(hessian: &[[f64; D]; D], change: &[[f64; D]; D]) -> bool {
+    let diagonal: [f64; D] = std::array::from_fn(|k| hessian[k][k] + change[k][k]);
+    if diagonal.iter().any(|&x| x < 0.0) {
+        return true;
+    }
+    let coupling = if D == 2 { hessian[0][1].abs() - change[0][1] } else { 0.0 };
+    D == 2 && coupling > 0.0 && coupling * coupling > diagonal[0] * diagonal[1]
 }
 
 /// Where `g x + ½ h x²` is least on an interval that holds 0, and its value there.

@@ -47,10 +47,10 @@ pub(super) struct Best<const D: usize> {
     /// The least φ met.
     pub phi: f64,
     /// Where, if in this tree; and the last place where Newton's method stopped.
-    pub at: Option<[f64; D]>,
+    at: Option<[f64; D]>,
     polished: Option<Stationary<D>>,
     /// φ is not smaller anywhere that was left aside.
-    pub lower: f64,
+    lower: f64,
     /// Pieces of no less than this are left aside: φ less what rounding makes of it.
     enough: f64,
     rounding: f64,
@@ -68,6 +68,21 @@ impl<const D: usize> Best<D> {
     fn lower_to(&mut self, phi: f64) {
         self.phi = phi;
         self.enough = phi - tolerance(phi, self.rounding);
+    }
+
+    /// A lower bound of φ over all that was searched.
+    pub fn bound(&self) -> f64 {
+        self.lower.min(self.enough)
+    }
+
+    /// The place of the least φ, if it is in this tree: where Newton's method came to rest.
+    pub fn place(&self, net: &LocalNet, q: DVec3) -> Option<[f64; D]> {
+        let at = self.at?;
+        if self.polished.is_some_and(|known| known.at == at) {
+            return Some(at);
+        }
+        let end = descend(net, q, at);
+        Some(if end.phi <= self.phi { end.at } else { at })
     }
 
     #[inline]
@@ -149,10 +164,15 @@ impl<const D: usize> Tree<D> {
         Self { net, nodes, corners }
     }
 
+    /// Whether all points are one, to rounding.
+    pub fn is_point(&self) -> bool {
+        self.nodes.first().is_some_and(|root| root.piece.radius() <= 4.0 * self.net.rounding_of_points())
+    }
+
     /// Looks for a φ below that of `best`, which is brought up to date.
     ///
-    /// Pieces that cannot hold a critical point of φ are left aside: their minima lie on sides, which have
-    /// trees of their own, or at corners, which are tried first.
+    /// Pieces without a minimum in the interior are left aside: theirs lie on sides, which have trees of their
+    /// own, or at corners, which are tried first.
     pub fn search(&self, q: DVec3, best: &mut Best<D>) {
         for &(corner, at) in &self.corners {
             best.offer(0.5 * corner.distance_squared(q), at);
@@ -253,7 +273,7 @@ impl<const D: usize> Tree<D> {
             best.lower = best.lower.min(known.lower);
             return None;
         }
-        if known.monotone {
+        if known.barren {
             return None;
         }
         if let Some(curvature) = known.convex
