@@ -8,6 +8,8 @@ use super::tree::{Area, Tree, Workshop, halves, tolerance};
 
 /// Pieces are not cut below this parameter width; what is undecided then is left to the caller.
 const RESOLUTION: f64 = 1.0 / (1_u64 << 26) as f64;
+/// Pieces below this width are not cut where rounding makes up much of what is known of them.
+const BLURRED: f64 = 1.0 / (1_u64 << 14) as f64;
 /// Pieces looked at for one query, at most.
 const MOST_PIECES: usize = 20_000;
 
@@ -34,9 +36,10 @@ pub struct LocalMinima<const D: usize> {
     pub minima: Vec<LocalMinimum<D>>,
     /// Parameter boxes in which it was not decided how many minima there are, if any.
     ///
-    /// Empty as a rule. A box is 2⁻²⁶ wide or a little more where a minimum is not strict to second order: at
-    /// a centre of curvature, a cusp, a corner where the gradient vanishes. Larger ones appear where a whole
-    /// curve of points is equally close, and 20,000 pieces did not suffice to follow it.
+    /// Empty as a rule. There are such where a minimum is not strict to second order (q at a centre of
+    /// curvature), where the gradient vanishes at a corner or the derivative at a cusp: a box goes as far as
+    /// rounding hides which way the distance grows, at least 2⁻²⁶. Larger ones appear where a whole curve of
+    /// points is equally close, and 20,000 pieces did not suffice to follow it.
     pub unresolved: Vec<[[f64; 2]; D]>,
 }
 
@@ -119,8 +122,9 @@ impl<const D: usize> Tree<D> {
                 }
             }
             let axis = if D == 2 && known.spread[1] > known.spread[0] { 1 } else { 0 };
-            let narrow = (0..D).all(|k| area[k][1] - area[k][0] <= RESOLUTION);
-            if narrow || self.is_level(piece, q) {
+            let width = (0..D).map(|k| area[k][1] - area[k][0]).fold(0.0, f64::max);
+            let blurred = width <= BLURRED && piece.is_rounded(q, known.spread[axis]);
+            if width <= RESOLUTION || blurred || self.is_level(piece, q) {
                 found.unresolved.push(area);
                 continue;
             }

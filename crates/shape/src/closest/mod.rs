@@ -14,7 +14,7 @@
 //! What is left when the tree ends is cut further, the most promising piece first. So the answer is the
 //! global one, and it carries a lower bound of the distance as its certificate. For a q that is equally far
 //! from a whole curve of the shape (on the axis of a surface of revolution, say) the proof may not end within
-//! the limit of 4000 further pieces; the point is then as good as the pieces tell, and the lower bound says so.
+//! the limit of 1000 further pieces; the point is then as good as the pieces tell, and the lower bound says so.
 //!
 //! Weights must be positive. Queries allocate nothing unless pieces are left when the tree ends.
 //!

@@ -126,7 +126,7 @@ impl LocalNet {
     /// Value and derivatives at a place of `[0, 1]²`.
     #[inline]
     pub fn jet(&self, at: [f64; 2]) -> LocalJet {
-        let jet = self.homogeneous_jet(at);
+        let jet = homogeneous_jet(&self.points, self.degrees, at);
         let w = jet[0].w;
         if self.weight_ratio == 1.0 {
             let [point, du, dv, duu, duv, dvv] = jet.map(|p| p.xyz() / w);
@@ -140,33 +140,6 @@ impl LocalNet {
             (bend.xyz() - carried) / w
         });
         LocalJet { point, first, second }
-    }
-
-    /// The homogeneous derivatives 1; u, v; uu, uv, vv.
-    #[inline]
-    fn homogeneous_jet(&self, [u, v]: [f64; 2]) -> [DVec4; 6] {
-        let [m, n] = self.degrees;
-        let mut jet = [DVec4::ZERO; 6];
-        if m.max(n) >= BASIS_ON_STACK {
-            TensorNet::validated(&self.points, self.degrees).partials(u, v, &mut jet);
-            return jet;
-        }
-        // The basis once for all rows: a fraction of the work of evaluating row by row.
-        let (along, across) = (Basis::new(m, u), Basis::new(n, v));
-        for (i, row) in self.points.chunks_exact(n + 1).enumerate() {
-            let mut line = [DVec4::ZERO; 3];
-            for (j, &p) in row.iter().enumerate() {
-                for (k, sum) in line.iter_mut().enumerate() {
-                    *sum += p * across.rows[k][j];
-                }
-            }
-            let [b, b1, b2] = along.rows.each_ref().map(|row| row[i]);
-            let parts = [line[0] * b, line[0] * b1, line[1] * b, line[0] * b2, line[1] * b1, line[2] * b];
-            for (sum, part) in jet.iter_mut().zip(parts) {
-                *sum += part;
-            }
-        }
-        jet
     }
 
     /// The net of the part over a box of `[0, 1]²`, by cutting twice along each axis.
@@ -205,72 +178,85 @@ impl LocalNet {
     }
 }
 
-/// A Bernstein basis with its first two derivatives.
+/// The homogeneous derivatives 1; u, v; uu, uv, vv at a place of `[0, 1]²`.
+#[inline]
+pub(super) fn homogeneous_jet(points: &[DVec4], degrees: [usize; 2], [u, v]: [f64; 2]) -> [DVec4; 6] {
+    let [m, n] = degrees;
+    let mut jet = [DVec4::ZERO; 6];
+    if m.max(n) >= BASIS_ON_STACK {
+        TensorNet::validated(points, degrees).partials(u, v, &mut jet);
+        return jet;
+    }
+    // The bases once for all rows: a fraction of the work of evaluating row by row.
+    let (along, across) = (Basis::new(m, u), Basis::new(n, v));
+    for (row, &[b, b1, b2]) in points.chunks_exact(n + 1).zip(&along.rows) {
+        let mut line = [DVec4::ZERO; 3];
+        for (&p, &[c, c1, c2]) in row.iter().zip(&across.rows) {
+            line[0] += p * c;
+            line[1] += p * c1;
+            line[2] += p * c2;
+        }
+        jet[0] += line[0] * b;
+        jet[1] += line[0] * b1;
+        jet[2] += line[1] * b;
+        jet[3] += line[0] * b2;
+        jet[4] += line[1] * b1;
+        jet[5] += line[2] * b;
+    }
+    jet
+}
+
+/// A Bernstein basis with its first two derivatives: those of one polynomial stand together.
 struct Basis {
-    rows: [[f64; BASIS_ON_STACK]; 3],
+    rows: [[f64; 3]; BASIS_ON_STACK],
 }
 
 impl Basis {
     /// By the recurrence `Bᵢⁿ = (1−t) Bᵢⁿ⁻¹ + t Bᵢ₋₁ⁿ⁻¹`, and differences on the way:
-    /// `(Bᵢⁿ)′ = n (Bᵢ₋₁ⁿ⁻¹ − Bᵢⁿ⁻¹)`, `(Bᵢⁿ)″ = n(n−1) (Bᵢ₋₂ⁿ⁻² − 2Bᵢ₋₁ⁿ⁻² + Bᵢⁿ⁻²)`.
+    /// `(Bᵢⁿ)′ = n (Bᵢ₋₁ⁿ⁻¹ − Bᵢⁿ⁻¹)`, twice for the second derivative.
     #[inline]
     fn new(degree: usize, t: f64) -> Self {
         let s = 1.0 - t;
-        let mut rows = [[0.0; BASIS_ON_STACK]; 3];
-        let [b, b1, b2] = &mut rows;
-        b[0] = 1.0;
+        let mut rows = [[0.0; 3]; BASIS_ON_STACK];
+        rows[0][0] = 1.0;
         for n in 1..=degree {
-            if n + 1 == degree {
-                differences(b, b2, n);
-            }
-            if n == degree {
-                differences(b, b1, n);
-                let factor = n as f64;
-                // The second differences were taken one degree below: once more.
-                for i in (1..=n).rev() {
-                    b2[i] = factor * (b2[i - 1] - b2[i]);
+            let factor = n as f64;
+            // From the last polynomial down, so that those of degree n − 1 are still there.
+            for i in (0..=n).rev() {
+                let before = if i > 0 { rows[i - 1] } else { [0.0; 3] };
+                let [b, b1, _] = rows[i];
+                if n + 1 >= degree {
+                    rows[i][2] = if n == degree { factor * (before[1] - b1) } else { 0.0 };
+                    rows[i][1] = factor * (before[0] - b);
                 }
-                b2[0] *= -factor;
+                rows[i][0] = s * b + t * before[0];
             }
-            b[n] = t * b[n - 1];
-            for i in (1..n).rev() {
-                b[i] = s * b[i] + t * b[i - 1];
-            }
-            b[0] *= s;
         }
         Self { rows }
     }
 }
 
-/// `n (Bᵢ₋₁ − Bᵢ)` for the basis of degree n − 1.
-#[inline]
-fn differences(basis: &[f64; BASIS_ON_STACK], out: &mut [f64; BASIS_ON_STACK], n: usize) {
-    let factor = n as f64;
-    out[0] = -factor * basis[0];
-    for i in 1..n {
-        out[i] = factor * (basis[i - 1] - basis[i]);
-    }
-    out[n] = factor * basis[n - 1];
-}
-
 /// The derivative along one axis by the local parameter of `[−1, 1]`, at the degree of the net itself:
 /// `½((m−i) (Pᵢ₊₁ − Pᵢ) + i (Pᵢ − Pᵢ₋₁))`.
 pub(super) fn derivative_net(net: &[DVec4], degrees: [usize; 2], axis: usize, out: &mut Vec<DVec4>) {
-    let stride = degrees[1] + 1;
+    let [m, n] = degrees;
+    let stride = n + 1;
     let step = if axis == 0 { stride } else { 1 };
     out.clear();
-    out.extend((0..net.len()).map(|place| {
-        let i = if axis == 0 { place / stride } else { place % stride };
-        let rest = degrees[axis] - i;
-        let mut sum = DVec4::ZERO;
-        if rest > 0 {
-            sum += (net[place + step] - net[place]) * (0.5 * rest as f64);
+    for i in 0..=m {
+        for j in 0..=n {
+            let (place, before) = (i * stride + j, if axis == 0 { i } else { j });
+            let after = degrees[axis] - before;
+            let mut sum = DVec4::ZERO;
+            if after > 0 {
+                sum += (net[place + step] - net[place]) * (0.5 * after as f64);
+            }
+            if before > 0 {
+                sum += (net[place] - net[place - step]) * (0.5 * before as f64);
+            }
+            out.push(sum);
         }
-        if i > 0 {
-            sum += (net[place] - net[place - step]) * (0.5 * i as f64);
-        }
-        sum
-    }));
+    }
 }
 
 /// The checked homogeneous net of a polynomial shape.

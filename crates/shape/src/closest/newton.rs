@@ -6,7 +6,7 @@ use casteljau_geom::glam::DVec3;
 use super::net::{LocalJet, LocalNet};
 
 /// Iterations allowed; from a good start three or four are used.
-const MOST_STEPS: usize = 40;
+const MOST_STEPS: usize = 100;
 /// Steps below this are the last: the next one would be at most their square, or rounding.
 const LAST_STEP: f64 = 1e-9;
 /// Halvings of a step that does not descend.

@@ -14,11 +14,10 @@
 //! Rational shapes need positive weights on the piece. The bounds come from the hull property of quotients:
 //! `|Σ Bᵢ Nᵢ / Σ Bᵢ wᵢ| ≤ max |Nᵢ|/wᵢ`.
 
-use casteljau_bernstein::TensorNet;
 use casteljau_geom::UNIT_ROUNDOFF;
 use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
 
-use super::net::derivative_net;
+use super::net::{derivative_net, homogeneous_jet};
 
 /// The jet of a piece at its middle, and what bounds its change.
 #[derive(Debug, Clone)]
@@ -35,6 +34,8 @@ pub(super) struct Piece<const D: usize> {
     radius: f64,
     /// τ: |S_kl − S_kl(0)|, at most.
     variation: [[f64; D]; D],
+    /// What rounding contributes to τ, at most.
+    noise: f64,
     /// κ: |S_k·S_l − S_k(0)·S_l(0)| + |(S − S(0))·S_kl|, at most.
     constant: [[f64; D]; D],
 }
@@ -84,8 +85,7 @@ impl<const D: usize> Piece<D> {
         // Differences of points of unlike weight are rounded on the scale of the larger one.
         let rounding = rounding * (largest / least);
         let factor = |k: usize| degrees[k].max(1) as f64;
-        let mut jet = [DVec4::ZERO; 6];
-        TensorNet::validated(net, degrees).partials(0.5, 0.5, &mut jet);
+        let jet = homogeneous_jet(net, degrees, [0.5, 0.5]);
         let w = jet[0].w;
         let center = jet[0].xyz() / w;
         let slope = |k: usize| 0.5 * jet[1 + k];
@@ -101,15 +101,22 @@ impl<const D: usize> Piece<D> {
         scratch.shifted.clear();
         scratch.shifted.extend(net.iter().map(|p| (p.xyz() - center * p.w).extend(p.w)));
         let shifted = &scratch.shifted;
-        let radius = rounding + largest_quotient(shifted, |i| shifted[i].xyz().length());
+        // With one weight for all the bounds have one term, and one root does for all of them.
+        let polynomial = least == largest;
+        let length = |v: DVec3| if polynomial { v.length_squared() } else { v.length() };
+        let largest_quotient = |numerator: &dyn Fn(usize) -> f64| {
+            let most = (0..shifted.len()).map(|i| numerator(i) / shifted[i].w).fold(0.0, f64::max);
+            if polynomial { (most / least).sqrt() } else { most }
+        };
+        let radius = rounding + largest_quotient(&|i| length(shifted[i].xyz()));
         let mut speed = [0.0; D];
         for k in 0..D {
             let slopes = &mut scratch.first[k];
             derivative_net(shifted, degrees, k, slopes);
             speed[k] = rounding * factor(k)
-                + largest_quotient(shifted, |i| {
+                + largest_quotient(&|i| {
                     let (p, s) = (shifted[i], slopes[i]);
-                    (s.xyz() - first[k] * p.w).length() + radius * s.w.abs()
+                    length(s.xyz() - first[k] * p.w) + radius * s.w.abs()
                 });
         }
         let mut variation = [[0.0; D]; D];
@@ -117,26 +124,34 @@ impl<const D: usize> Piece<D> {
             for l in k..D {
                 derivative_net(&scratch.first[k], degrees, l, &mut scratch.second);
                 let (along, across, bends) = (&scratch.first[k], &scratch.first[l], &scratch.second);
-                let bound = largest_quotient(shifted, |i| {
+                let bound = largest_quotient(&|i| {
                     let (wk, wl, bend) = (along[i].w, across[i].w, bends[i]);
                     let rest = bend.xyz() - second[k][l] * shifted[i].w - first[k] * wl - first[l] * wk;
-                    rest.length() + speed[k] * wl.abs() + speed[l] * wk.abs() + radius * bend.w.abs()
+                    length(rest) + speed[k] * wl.abs() + speed[l] * wk.abs() + radius * bend.w.abs()
                 });
                 variation[k][l] = rounding * factor(k) * factor(l) + bound;
                 variation[l][k] = variation[k][l];
             }
         }
-        let pair =
-            |f: &dyn Fn(usize, usize) -> f64| std::array::from_fn(|k| std::array::from_fn(|l| f(k, l)));
-        let metric = pair(&|k, l| first[k].dot(first[l]));
-        let constant = pair(&|k, l| {
-            first[k].length() * speed[l]
-                + first[l].length() * speed[k]
-                + speed[k] * speed[l]
-                + radius * (second[k][l].length() + variation[k][l])
-        });
-        let piece = Self { center, first, second, metric, radius, variation, constant };
+        let noise = rounding * (0..D).map(factor).fold(1.0, f64::max).powi(2);
+        let metric = first.map(|a| first.map(|b| a.dot(b)));
+        let mut constant = variation;
+        for k in 0..D {
+            for l in 0..D {
+                constant[k][l] = first[k].length() * speed[l]
+                    + first[l].length() * speed[k]
+                    + speed[k] * speed[l]
+                    + radius * (second[k][l].length() + variation[k][l]);
+            }
+        }
+        let piece = Self { center, first, second, metric, radius, variation, noise, constant };
         piece.center.is_finite().then_some(piece)
+    }
+
+    /// Whether rounding makes up much of what is known of the gradient's change along an axis: cutting the
+    /// piece would not tell more.
+    pub fn is_rounded(&self, q: DVec3, spread: f64) -> bool {
+        2.0 * self.noise * (self.center.distance(q) + self.radius) >= spread
     }
 
     /// A bound of |S − S(0)|.
@@ -173,12 +188,15 @@ impl<const D: usize> Piece<D> {
                 start: [0.0; D],
             };
         }
-        let gradient: [f64; D] = std::array::from_fn(|k| d.dot(self.first[k]));
-        let pair = |f: &dyn Fn(usize, usize) -> f64| -> [[f64; D]; D] {
-            std::array::from_fn(|k| std::array::from_fn(|l| f(k, l)))
-        };
-        let hessian = pair(&|k, l| self.metric[k][l] + d.dot(self.second[k][l]));
-        let change = pair(&|k, l| distance * self.variation[k][l] + self.constant[k][l]);
+        let mut gradient = [0.0; D];
+        let (mut hessian, mut change) = ([[0.0; D]; D], [[0.0; D]; D]);
+        for k in 0..D {
+            gradient[k] = d.dot(self.first[k]);
+            for l in 0..D {
+                hessian[k][l] = self.metric[k][l] + d.dot(self.second[k][l]);
+                change[k][l] = distance * self.variation[k][l] + self.constant[k][l];
+            }
+        }
         let mut model = middle - 8.0 * UNIT_ROUNDOFF * square;
         let mut spread = [0.0; D];
         let mut start = [0.0; D];
@@ -198,11 +216,6 @@ impl<const D: usize> Piece<D> {
         let barren = barren || nowhere_positive(&hessian, &change);
         Assessment { lower: model.max(ball), middle, barren, convex, spread, start }
     }
-}
-
-/// `max |Nᵢ|/wᵢ`, the numerators being given by place.
-fn largest_quotient(net: &[DVec4], numerator: impl Fn(usize) -> f64) -> f64 {
-    (0..net.len()).map(|i| numerator(i) / net[i].w).fold(0.0, f64::max)
 }
 
 /// A positive diagonal matrix below all symmetric matrices within `change` of `hessian`, where there is one.

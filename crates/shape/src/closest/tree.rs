@@ -20,7 +20,7 @@ const FLAT: f64 = 1e-3;
 /// Pieces are not cut below this parameter width.
 const LEAST_WIDTH: f64 = 1.0 / (1_u64 << 40) as f64;
 /// Pieces looked at beyond the tree, at most, for one query.
-pub(super) const MOST_EXTRA: usize = 4000;
+pub(super) const MOST_EXTRA: usize = 1000;
 
 /// A box of `[0, 1]ᴰ`.
 pub(super) type Area<const D: usize> = [[f64; 2]; D];
@@ -107,6 +107,8 @@ struct Open<const D: usize> {
     lower: f64,
     area: Area<D>,
     axis: usize,
+    /// Whether the coefficients of the squared distance have been looked at.
+    squared: bool,
 }
 
 impl<const D: usize> PartialEq for Open<D> {
@@ -184,7 +186,7 @@ impl<const D: usize> Tree<D> {
             && let Some((lower, axis)) = self.consider(q, &root.piece, &root.area, best)
         {
             if root.halves == 0 {
-                open.push(Open { lower, area: root.area, axis });
+                open.push(Open { lower, area: root.area, axis, squared: false });
             } else {
                 (stack[0], depth) = ((0, lower), 1);
             }
@@ -203,7 +205,7 @@ impl<const D: usize> Tree<D> {
                 let node = &self.nodes[place];
                 let Some((lower, axis)) = self.consider(q, &node.piece, &node.area, best) else { continue };
                 if node.halves == 0 {
-                    open.push(Open { lower, area: node.area, axis });
+                    open.push(Open { lower, area: node.area, axis, squared: false });
                 } else {
                     kept[count] = (place, lower);
                     count += 1;
@@ -238,19 +240,32 @@ impl<const D: usize> Tree<D> {
                 best.lower = best.lower.min(next.lower);
                 continue;
             }
+            if !next.squared {
+                self.net.restrict(&next.area, &mut work.net);
+                let square = least_square(&work.net, self.net.degrees(), q, &mut work.square);
+                if square >= best.enough {
+                    best.lower = best.lower.min(square);
+                    continue;
+                }
+            }
+            // Without a convex piece nothing has been descended yet: along a valley that makes all the difference.
+            if looked < 32 || looked % 32 == 0 {
+                let end = descend(&self.net, q, next.area.map(|[a, b]| 0.5 * (a + b)));
+                best.offer(end.phi, end.at);
+            }
             for area in halves(next.area, next.axis) {
                 looked += 1;
                 let Some(piece) = work.piece(&self.net, &area) else {
                     best.lower = best.lower.min(next.lower);
                     continue;
                 };
+                let Some((lower, axis)) = self.consider(q, &piece, &area, best) else { continue };
                 let square = least_square(&work.net, self.net.degrees(), q, &mut work.square);
-                if square >= best.enough {
-                    best.lower = best.lower.min(square);
-                    continue;
-                }
-                if let Some((lower, axis)) = self.consider(q, &piece, &area, best) {
-                    heap.push(Open { lower: lower.max(square).max(next.lower), area, axis });
+                let lower = lower.max(square).max(next.lower);
+                if lower >= best.enough {
+                    best.lower = best.lower.min(lower);
+                } else {
+                    heap.push(Open { lower, area, axis, squared: true });
                 }
             }
         }
