@@ -44,7 +44,7 @@ pub fn basis_barycentric(s: f64, t: f64, out: &mut [f64]) {
 
 /// The powers x, x², x³, …, each kept as a product of two, so that one that multiplies a large binomial
 /// coefficient does not vanish before the product does.
-struct Halves {
+pub(crate) struct Halves {
     x: f64,
     larger: f64,
     smaller: f64,
@@ -52,13 +52,13 @@ struct Halves {
 
 impl Halves {
     #[inline]
-    fn new(x: f64) -> Self {
+    pub(crate) fn new(x: f64) -> Self {
         Self { x, larger: 1.0, smaller: 1.0 }
     }
 
     /// `factor` times the next power.
     #[inline]
-    fn next_times(&mut self, factor: f64) -> f64 {
+    pub(crate) fn next_times(&mut self, factor: f64) -> f64 {
         (self.larger, self.smaller) = (self.smaller * self.x, self.larger);
         factor * self.larger * self.smaller
     }

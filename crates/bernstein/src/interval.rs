@@ -22,11 +22,21 @@ pub fn value<P: Point>(points: &[P], t: f64) -> P {
 /// `((P₀ s + C(n,1) t P₁) s + C(n,2) t² P₂) s + … + tⁿ Pₙ`, s = 1 − t: positive weights on `[0, 1]`
 /// throughout, hence stable.
 #[inline]
-pub(crate) fn nested<P: Point>(n: usize, t: f64, mut points: impl Iterator<Item = P>) -> P {
+pub(crate) fn nested<P: Point>(n: usize, t: f64, points: impl Iterator<Item = P>) -> P {
+    nested_barycentric(n, 1.0 - t, t, points)
+}
+
+/// `Σ C(n,i) sⁿ⁻ⁱ tⁱ Pᵢ`, s and t being independent.
+#[inline]
+pub(crate) fn nested_barycentric<P: Point>(
+    n: usize,
+    s: f64,
+    t: f64,
+    mut points: impl Iterator<Item = P>,
+) -> P {
     if n > MAX_DEGREE {
         return P::NAN;
     }
-    let s = 1.0 - t;
     let mut row = Row::new(n);
     let mut power = 1.0;
     let mut sum = points.next().unwrap_or(P::ZERO);
@@ -89,7 +99,7 @@ fn differentiated_in<P: Point>(
 
 /// Replaces the last backward differences by those that end at a new point; gives the one of the next order.
 #[inline(always)]
-fn push<P: Point>(differences: &mut [P], mut newest: P) -> P {
+pub(crate) fn push<P: Point>(differences: &mut [P], mut newest: P) -> P {
     for difference in differences {
         let older = std::mem::replace(difference, newest);
         newest = newest - older;
@@ -158,9 +168,15 @@ pub fn de_casteljau_scheme<P: Point>(points: &[P], t: f64, out: &mut [P]) -> Res
     if out.len() != needed {
         return Err(BernsteinError::BufferLength { buffer: "out", needed, given: out.len() });
     }
+    out[..count].copy_from_slice(points);
+    fill_scheme(count, t, out);
+    Ok(())
+}
+
+/// The levels of the scheme above the first, which is there and has `count` points.
+pub(crate) fn fill_scheme<P: Point>(count: usize, t: f64, out: &mut [P]) {
     let s = 1.0 - t;
     let (mut below, mut rest) = out.split_at_mut(count);
-    below.copy_from_slice(points);
     for length in (1..count).rev() {
         let (level, left) = rest.split_at_mut(length);
         for (p, pair) in level.iter_mut().zip(below.windows(2)) {
@@ -168,5 +184,4 @@ pub fn de_casteljau_scheme<P: Point>(points: &[P], t: f64, out: &mut [P]) -> Res
         }
         (below, rest) = (level, left);
     }
-    Ok(())
 }

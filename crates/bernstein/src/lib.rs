@@ -23,18 +23,55 @@ pub use glam;
 
 mod basis;
 mod binomial;
+mod blossom;
+mod bounds;
+mod box_net;
+mod compose;
 mod elevation;
 mod error;
+mod integral;
 mod interval;
+mod line;
+mod matrix;
 mod point;
+mod power;
+mod product;
+mod reduction;
+mod restriction;
+mod roots;
+mod scheme;
+mod simplex;
+mod space;
 mod subdivision;
 mod tensor;
+mod wedge;
 
 pub use basis::{basis, basis_barycentric, basis_derivatives};
 pub use binomial::{MAX_DEGREE, binomial};
-pub use elevation::elevate;
+pub use blossom::{blossom, blossom_tensor};
+pub use bounds::{Extremes, extremes, hull_bounds};
+pub use box_net::{BoxNet, box_partial_count, box_partial_index};
+pub use compose::{compose, compose_homogeneous, compose_simplex, last_coordinate};
+pub use elevation::{elevate, elevate_along, elevate_tensor};
 pub use error::BernsteinError;
+pub use integral::{
+    antiderivative, antiderivative_along, integral, integral_over, integral_over_tensor, moment,
+    moment_tensor,
+};
 pub use interval::{de_casteljau, de_casteljau_scheme, derivative, derivatives, value};
+pub use matrix::{elevation_matrix, inverse_power_matrix, power_matrix, restriction_matrix};
 pub use point::Point;
-pub use subdivision::subdivide;
+pub use power::{from_power, from_power_tensor, to_power, to_power_tensor};
+pub use product::{product, product_tensor, sum, sum_tensor};
+pub use reduction::{reduce, reduce_along};
+pub use restriction::{restrict, restrict_along, restrict_tensor};
+pub use roots::{Root, RootKind, roots};
+pub use scheme::{scheme_count, tensor_scheme_count};
+pub use simplex::{
+    MultiIndices, SimplexNet, TetrahedronNet, TriangleNet, last_barycentric, multi_indices, simplex_basis,
+    simplex_basis_partials, simplex_count, simplex_index, simplex_partial_index,
+};
+pub use space::BernsteinSpace;
+pub use subdivision::{subdivide, subdivide_along};
 pub use tensor::{TensorNet, partial_count, partial_index};
+pub use wedge::WedgeNet;

@@ -24,18 +24,24 @@ pub trait Point:
 
     /// Absolute values, component by component: the scale of error bounds is made of these.
     fn abs(self) -> Self;
+    /// Euclidean length, `√Σxᵢ²`.
+    fn norm(self) -> f64;
     /// Whether every component is finite.
     fn is_finite(self) -> bool;
 }
 
 macro_rules! point {
-    ($($type:ty: $zero:expr),*) => {$(
+    ($($type:ty: $zero:expr, $norm:expr;)*) => {$(
         impl Point for $type {
             const ZERO: Self = $zero;
             const NAN: Self = <$type>::NAN;
 
             fn abs(self) -> Self {
                 <$type>::abs(self)
+            }
+
+            fn norm(self) -> f64 {
+                $norm(self)
             }
 
             fn is_finite(self) -> bool {
@@ -45,4 +51,9 @@ macro_rules! point {
     )*};
 }
 
-point!(f64: 0.0, DVec2: DVec2::ZERO, DVec3: DVec3::ZERO, DVec4: DVec4::ZERO);
+point! {
+    f64: 0.0, f64::abs;
+    DVec2: DVec2::ZERO, DVec2::length;
+    DVec3: DVec3::ZERO, DVec3::length;
+    DVec4: DVec4::ZERO, DVec4::length;
+}

@@ -1,7 +1,8 @@
 //! Tensor products in two variables.
 
 use crate::interval::{differentiated, nested};
-use crate::{BernsteinError, MAX_DEGREE, Point};
+use crate::line::counts;
+use crate::{BernsteinError, MAX_DEGREE, Point, binomial, box_net::power};
 
 /// Nets with at most so many rows keep the rows' values on the stack; others make them again for each order.
 const ROWS_ON_STACK: usize = 24;
@@ -21,8 +22,8 @@ const ROWS_ON_STACK: usize = 24;
 /// ```
 #[derive(Debug, Clone, Copy)]
 pub struct TensorNet<'a, P> {
-    points: &'a [P],
-    degrees: [usize; 2],
+    pub(crate) points: &'a [P],
+    pub(crate) degrees: [usize; 2],
 }
 
 /// The number of partial derivatives up to a total order, `(k+1)(k+2)/2`.
@@ -113,8 +114,29 @@ impl<'a, P: Point> TensorNet<'a, P> {
         }
     }
 
+    /// Derivative of order r along a direction, `(d/dh)ʳ p(u + h·d)` at h = 0:
+    /// `Σ C(r,a) dᵤᵃ dᵥᵇ ∂ʳp/∂uᵃ∂vᵇ` over a + b = r.
+    ///
+    /// The order is the length of `work`, whose content is lost. Error: as for [`partials`](Self::partials),
+    /// scale being the sum above with every term taken absolutely. Cost: the net is read r + 1 times.
+    #[must_use]
+    pub fn directional(&self, [u, v]: [f64; 2], [du, dv]: [f64; 2], work: &mut [P]) -> P {
+        let order = work.len();
+        let [m, n] = counts(self.degrees);
+        let mut sum = P::ZERO;
+        for a in 0..=order {
+            let factor = binomial(order, a) * power(du, a) * power(dv, order - a);
+            if factor != 0.0 {
+                let (in_u, in_v) = work.split_at_mut(a);
+                let rows = self.rows().map(|row| differentiated(n, v, &mut *in_v, row.iter().copied()));
+                sum = sum + differentiated(m, u, in_u, rows) * factor;
+            }
+        }
+        sum
+    }
+
     /// The rows `Pᵢ₀ … Pᵢₙ`.
-    fn rows(&self) -> std::slice::ChunksExact<'a, P> {
+    pub(crate) fn rows(&self) -> std::slice::ChunksExact<'a, P> {
         self.points.chunks_exact(self.degrees[1].saturating_add(1))
     }
 }

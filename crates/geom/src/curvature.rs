@@ -55,6 +55,28 @@ impl SurfaceJet {
         Some(SecondForm { l: n.dot(self.duu), m: n.dot(self.duv), n: n.dot(self.dvv) })
     }
 
+    /// Normal curvature `II(x)/I(x)` in the direction of a tangent vector, in 1/length, positive where the surface
+    /// bends to the side of the normal `∂u × ∂v`.
+    ///
+    /// Of a direction off the tangent plane its foot counts. `None` where the normal is, where the foot vanishes,
+    /// or where the answer leaves the range of numbers.
+    ///
+    /// ```
+    /// use casteljau_geom::{SurfaceJet, glam::DVec3};
+    /// let cylinder = SurfaceJet { du: DVec3::X, dv: DVec3::Y, duu: DVec3::Z, ..SurfaceJet::default() };
+    /// assert_eq!(cylinder.normal_curvature(DVec3::new(1.0, 1.0, 0.0)), Some(0.5));
+    /// ```
+    #[must_use]
+    pub fn normal_curvature(&self, direction: DVec3) -> Option<f64> {
+        let normal = self.normal()?;
+        let along = (direction - normal * normal.dot(direction)).try_normalize()?;
+        // The dual basis of (∂u, ∂v) in the tangent plane gives `along = a ∂u + b ∂v`.
+        let area = self.du.cross(self.dv).dot(normal);
+        let (a, b) = (along.cross(self.dv).dot(normal) / area, self.du.cross(along).dot(normal) / area);
+        let bend = (self.duu * (a * a) + self.duv * (2.0 * a * b) + self.dvv * (b * b)).dot(normal);
+        bend.is_finite().then_some(bend)
+    }
+
     /// Gaussian, mean and principal curvatures with their directions, `κ = II(x)/I(x)` at its extremes.
     ///
     /// The second form is written in an orthonormal frame of the tangent plane, `e₁ = ∂u/|∂u|`, `e₂ = n ×

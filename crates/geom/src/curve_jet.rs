@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::COLLAPSE;
+
 /// A point of a curve and its derivatives up to order 3.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CurveJet {
@@ -13,6 +15,28 @@ pub struct CurveJet {
     pub d2: DVec3,
     /// C‴(t)
     pub d3: DVec3,
+}
+
+/// The moving frame of a curve with its curvatures: `T′ = κ|C′| N`, `N′ = |C′|(−κT + τB)`, `B′ = −τ|C′| N`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FrenetFrame {
+    /// Unit tangent T.
+    pub tangent: DVec3,
+    /// Principal normal N = B × T, the side to which the curve bends.
+    pub normal: DVec3,
+    /// Binormal B, the direction of C′ × C″: the normal of the osculating plane.
+    pub binormal: DVec3,
+    /// Curvature κ, positive, in 1/length.
+    pub curvature: f64,
+    /// Torsion τ, positive for a right-handed screw, in 1/length.
+    pub torsion: f64,
+}
+
+impl From<[DVec3; 4]> for CurveJet {
+    /// Point and derivatives of orders 1, 2, 3.
+    fn from([point, d1, d2, d3]: [DVec3; 4]) -> Self {
+        Self { point, d1, d2, d3 }
+    }
 }
 
 impl CurveJet {
@@ -39,9 +63,38 @@ impl CurveJet {
     /// Torsion `τ = det(C′, C″, C‴) / |C′ × C″|²`, in 1/length; `None` where C′ × C″ = 0.
     #[must_use]
     pub fn torsion(&self) -> Option<f64> {
-        let binormal = self.d1.cross(self.d2);
+        // Of unit vectors, so that squares of lengths can neither overflow nor vanish.
+        let (speed, bend) = (self.d1.length(), self.d2.length());
+        let binormal = self.d1.try_normalize()?.cross(self.d2.try_normalize()?);
         let square = binormal.length_squared();
-        if square > 0.0 { finite(binormal.dot(self.d3) / square) } else { None }
+        if square > 0.0 { finite(binormal.dot(self.d3 / speed) / bend / square) } else { None }
+    }
+
+    /// Tangent, principal normal and binormal, with curvature and torsion.
+    ///
+    /// `None` where the curve has no osculating plane: C′ = 0, C″ = 0, or the sine of their angle at most
+    /// [`COLLAPSE`] (a straight stretch, but for rounding).
+    /// Error: rounding, magnified by 1/sin² of the angle between C′ and C″.
+    ///
+    /// ```
+    /// use casteljau_geom::{CurveJet, glam::DVec3};
+    /// let circle = CurveJet { d1: DVec3::Y, d2: -DVec3::X, d3: -DVec3::Y, point: DVec3::X };
+    /// let frame = circle.frenet_frame().unwrap();
+    /// assert_eq!((frame.normal, frame.binormal), (-DVec3::X, DVec3::Z));
+    /// assert_eq!((frame.curvature, frame.torsion), (1.0, 0.0));
+    /// ```
+    ///
+    /// Source: do Carmo, *Differential Geometry of Curves and Surfaces*, sec. 1.5.
+    #[must_use]
+    pub fn frenet_frame(&self) -> Option<FrenetFrame> {
+        let tangent = self.tangent()?;
+        let bend = tangent.cross(self.d2.try_normalize()?);
+        if bend.length() <= COLLAPSE {
+            return None;
+        }
+        let binormal = bend.try_normalize()?;
+        let (curvature, torsion) = (self.curvature()?, self.torsion()?);
+        Some(FrenetFrame { tangent, normal: binormal.cross(tangent), binormal, curvature, torsion })
     }
 }
 

@@ -16,7 +16,7 @@
 use glam::{DAffine3, DVec3};
 use thiserror::Error;
 
-use crate::SurfaceJet;
+use crate::{BoundingBox, CurveJet, SurfaceJet};
 
 /// A law that does not hold, and by how much.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -111,6 +111,63 @@ pub fn subdivision_law(
         judge("subdivision, right", &[b], right(s).distance(whole(b)), tolerance)?;
     }
     Ok(())
+}
+
+/// Equality of curves: `a(s) = b(s)` at 17 values of s from 0 to 1; `law` names what made the one from the other.
+///
+/// # Errors
+/// [`BrokenLaw`] with the parameter and the distance.
+pub fn equal_curves_law(
+    law: &'static str,
+    a: impl Fn(f64) -> DVec3,
+    b: impl Fn(f64) -> DVec3,
+    tolerance: f64,
+) -> Verdict {
+    (0..=16).map(|i| f64::from(i) / 16.0).try_for_each(|s| judge(law, &[s], a(s).distance(b(s)), tolerance))
+}
+
+/// Equality of surfaces: `a(s, t) = b(s, t)` at 9 × 9 parameters from 0 to 1, those with s + t > 1 left out where
+/// `triangle` is set.
+///
+/// # Errors
+/// [`BrokenLaw`] with the parameters and the distance.
+pub fn equal_surfaces_law(
+    law: &'static str,
+    triangle: bool,
+    a: impl Fn(f64, f64) -> DVec3,
+    b: impl Fn(f64, f64) -> DVec3,
+    tolerance: f64,
+) -> Verdict {
+    for k in 0..81 {
+        let [s, t] = [k / 9, k % 9].map(|i| f64::from(i) / 8.0);
+        if !triangle || s + t <= 1.0 {
+            judge(law, &[s, t], a(s, t).distance(b(s, t)), tolerance)?;
+        }
+    }
+    Ok(())
+}
+
+/// Convex hull property: the box contains the points of a curve at 17 values of s from 0 to 1, within `tolerance`.
+///
+/// # Errors
+/// [`BrokenLaw`] with the parameter and the distance outside.
+pub fn hull_law(hull: BoundingBox, curve: impl Fn(f64) -> DVec3, tolerance: f64) -> Verdict {
+    (0..=16).map(|i| f64::from(i) / 16.0).try_for_each(|s| {
+        let p = curve(s);
+        judge("convex hull", &[s], p.distance(p.clamp(hull.min, hull.max)), tolerance)
+    })
+}
+
+/// Derivatives of a curve: each member of its jet is the derivative of the one before.
+///
+/// # Errors
+/// [`BrokenLaw`] with the parameter and the name of the member.
+pub fn curve_derivative_law(jet: impl Fn(f64) -> CurveJet, t: f64, step: f64, tolerance: f64) -> Verdict {
+    let here = jet(t);
+    let difference = |member: fn(CurveJet) -> DVec3| central_difference(|x| member(jet(x)), t, step);
+    judge("d1", &[t], here.d1.distance(difference(|j| j.point)), tolerance)?;
+    judge("d2", &[t], here.d2.distance(difference(|j| j.d1)), tolerance)?;
+    judge("d3", &[t], here.d3.distance(difference(|j| j.d2)), tolerance)
 }
 
 /// Weights of the central difference of order 8, for distances 1, 2, 3, 4 times the step.

@@ -30,16 +30,22 @@ mod error;
 mod interval;
 #[cfg(feature = "laws")]
 pub mod laws;
+mod multi_index;
+mod partials;
 mod quotient;
+mod solid_jet;
 mod surface_jet;
 mod tolerance;
 
 pub use angle::angle_degrees;
 pub use bounds::BoundingBox;
 pub use curvature::{Curvatures, FirstForm, SecondForm};
-pub use curve_jet::CurveJet;
+pub use curve_jet::{CurveJet, FrenetFrame};
 pub use error::GeomError;
 pub use interval::Interval;
-pub use quotient::{ScalarJet, quotient_curve_jet, quotient_jet};
+pub use multi_index::{multi_indices, partial_count, partial_index};
+pub use partials::Partials;
+pub use quotient::{ScalarJet, quotient_curve_jet, quotient_jet, quotient_partials};
+pub use solid_jet::SolidJet;
 pub use surface_jet::{SurfaceJet, TangentPlane};
 pub use tolerance::{COLLAPSE, UNIT_ROUNDOFF, rounding_bound};

@@ -1,5 +1,8 @@
 //! The quotient rule: from homogeneous jets to Euclidean ones.
 
+use glam::{DVec3, DVec4, Vec4Swizzles};
+
+use crate::multi_index::{below, binomial, multi_indices, partial_count, partial_index};
 use crate::{CurveJet, GeomError, SurfaceJet};
 
 /// A number with its partial derivatives up to order 2: the denominator of a rational surface.
@@ -68,6 +71,60 @@ pub fn quotient_curve_jet(
     let d3 = (n.d3 - d2 * (3.0 * w1) - d1 * (3.0 * w2) - point * w3) / w;
     let jet = CurveJet { point, d1, d2, d3 };
     if jet.is_finite() { Ok(jet) } else { Err(GeomError::Overflow { denominator: w }) }
+}
+
+/// The quotient rule of any order in N parameters: from the partial derivatives of `(N, w)` to those of
+/// `S = N/w`, `S_α = (N_α − Σ_{0<β≤α} C(α,β) w_β S_{α−β}) / w`.
+///
+/// Both lists stand in the order of [`partial_index`]. The total order is the greatest one that fits the
+/// shorter of them; what is left over of `out` is set to zero. `uncertainty` as for [`quotient_jet`].
+/// Error: that of N and w, magnified by `1/|w|` once an order. Cost: Π(αᵢ + 1) multiplications of a vector for
+/// each α, no allocation.
+///
+/// ```
+/// use casteljau_geom::{quotient_partials, glam::{DVec3, DVec4}};
+/// // (1, t, 0)/t at t = 2: the derivatives of 1/t are −1/4 and 1/4.
+/// let net = [DVec4::new(1., 2., 0., 2.), DVec4::new(0., 1., 0., 1.), DVec4::ZERO];
+/// let mut out = [DVec3::ZERO; 3];
+/// quotient_partials::<1>(&net, 0.0, &mut out)?;
+/// assert_eq!(out, [DVec3::new(0.5, 1., 0.), DVec3::X * -0.25, DVec3::X * 0.25]);
+/// # Ok::<(), casteljau_geom::GeomError>(())
+/// ```
+///
+/// # Errors
+/// [`GeomError::Pole`] where w vanishes, [`GeomError::Overflow`] where the answer would not be finite; `out`
+/// is then not to be used.
+///
+/// Source: Piegl and Tiller, *The NURBS Book*, 2nd ed., sec. 4.5.
+pub fn quotient_partials<const N: usize>(
+    homogeneous: &[DVec4],
+    uncertainty: f64,
+    out: &mut [DVec3],
+) -> Result<(), GeomError> {
+    let fits = homogeneous.len().min(out.len());
+    let order = (0..).take_while(|&k| N > 0 && partial_count::<N>(k) <= fits).last();
+    let used = order.map_or(0, partial_count::<N>);
+    out[used..].fill(DVec3::ZERO);
+    let Some(order) = order else { return Ok(()) };
+    let w = homogeneous[0].w;
+    refuse_pole(w, uncertainty)?;
+    for alpha in multi_indices::<N>(order) {
+        let place = partial_index(alpha);
+        let mut sum = homogeneous[place].xyz();
+        for beta in below(alpha).skip(1) {
+            let mut rest = alpha;
+            for (r, b) in rest.iter_mut().zip(beta) {
+                *r -= b;
+            }
+            sum -= out[partial_index(rest)] * (binomial(alpha, beta) * homogeneous[partial_index(beta)].w);
+        }
+        let quotient = sum / w;
+        if !quotient.is_finite() {
+            return Err(GeomError::Overflow { denominator: w });
+        }
+        out[place] = quotient;
+    }
+    Ok(())
 }
 
 fn refuse_pole(denominator: f64, uncertainty: f64) -> Result<(), GeomError> {

@@ -38,7 +38,30 @@ impl TangentPlane {
     }
 }
 
+impl From<[DVec3; 6]> for SurfaceJet {
+    /// Point and derivatives in the order 1, u, v, uu, uv, vv.
+    fn from([point, du, dv, duu, duv, dvv]: [DVec3; 6]) -> Self {
+        Self { point, du, dv, duu, duv, dvv }
+    }
+}
+
 impl SurfaceJet {
+    /// The jet with respect to the parameters (u/a, v/b), `∂ʲ⁺ᵏ ↦ aʲbᵏ ∂ʲ⁺ᵏ`.
+    ///
+    /// With a and b the lengths of the parameter intervals all derivatives become comparable with each other,
+    /// as [`normal`](Self::normal) takes them to be; normals and curvatures stay what they are.
+    #[must_use]
+    pub fn rescaled(&self, [a, b]: [f64; 2]) -> Self {
+        Self {
+            point: self.point,
+            du: self.du * a,
+            dv: self.dv * b,
+            duu: self.duu * (a * a),
+            duv: self.duv * (a * b),
+            dvv: self.dvv * (b * b),
+        }
+    }
+
     /// Whether every number in the jet is finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {

@@ -1,10 +1,10 @@
 //! Normals, curvatures and the quotient rule on surfaces whose answers are known.
 #![allow(clippy::unwrap_used)] // helpers of tests
 
-use casteljau_geom::glam::{DAffine3, DQuat, DVec2, DVec3};
+use casteljau_geom::glam::{DAffine3, DQuat, DVec2, DVec3, DVec4};
 use casteljau_geom::{
     CurveJet, GeomError, ScalarJet, SurfaceJet, UNIT_ROUNDOFF, angle_degrees, quotient_curve_jet,
-    quotient_jet,
+    quotient_jet, quotient_partials,
 };
 use proptest::prelude::*;
 
@@ -209,4 +209,72 @@ fn poles_are_errors() {
     }
     let w = ScalarJet { value: 1e-200, du: 1.0, ..ScalarJet::default() };
     assert_eq!(quotient_jet(&n, &w, 0.0), Err(GeomError::Overflow { denominator: 1e-200 }));
+}
+
+/// Derivatives of `xyz/w` made of monomials, each of which the quotient rule must give back: with N = S·w the
+/// Leibniz rule forwards, with the same integers throughout, so that everything is exact.
+fn quotient_undoes_the_product<const N: usize>(order: usize) {
+    use casteljau_geom::{multi_indices, partial_count, partial_index};
+    let count = partial_count::<N>(order);
+    let surface: Vec<DVec3> =
+        (0..count).map(|k| DVec3::new((k * k % 7) as f64, k as f64 - 3.0, (5 * k % 11) as f64)).collect();
+    let weight: Vec<f64> = (0..count).map(|k| (k * 3 % 5) as f64 + 2.0).collect();
+    let factorial = |k: usize| (1..=k).product::<usize>() as f64;
+    let mut net = vec![DVec4::ZERO; count];
+    for alpha in multi_indices::<N>(order) {
+        for beta in multi_indices::<N>(order) {
+            if (0..N).any(|i| beta[i] > alpha[i]) {
+                continue;
+            }
+            let rest: [usize; N] = std::array::from_fn(|i| alpha[i] - beta[i]);
+            let choose: f64 =
+                (0..N).map(|i| factorial(alpha[i]) / factorial(beta[i]) / factorial(rest[i])).product();
+            let w = weight[partial_index(beta)];
+            net[partial_index(alpha)] += (surface[partial_index(rest)] * w).extend(0.0) * choose;
+        }
+        net[partial_index(alpha)].w = weight[partial_index(alpha)];
+    }
+    let mut out = vec![DVec3::NAN; count];
+    quotient_partials::<N>(&net, 0.0, &mut out).unwrap();
+    assert_eq!(out, surface);
+    // A buffer that is no whole jet gets the jet that fits and zeros.
+    let mut short = vec![DVec3::NAN; count - 1];
+    quotient_partials::<N>(&net, 0.0, &mut short).unwrap();
+    let fits = partial_count::<N>(order - 1);
+    assert_eq!(short[..fits], surface[..fits]);
+    assert!(short[fits..].iter().all(|&p| p == DVec3::ZERO));
+}
+
+#[test]
+fn quotient_of_any_order() {
+    quotient_undoes_the_product::<1>(9);
+    quotient_undoes_the_product::<2>(5);
+    quotient_undoes_the_product::<3>(4);
+    let refused = quotient_partials::<2>(&[DVec4::X], 0.0, &mut [DVec3::ZERO]);
+    assert!(matches!(refused, Err(GeomError::Pole { .. })));
+    let refused = quotient_partials::<2>(&[DVec4::new(1.0, 0.0, 0.0, 1e-310)], 0.0, &mut [DVec3::ZERO]);
+    assert!(matches!(refused, Err(GeomError::Overflow { .. })));
+    assert_eq!(quotient_partials::<3>(&[], 0.0, &mut []), Ok(()));
+}
+
+#[test]
+fn frames_of_a_helix() {
+    // (r cos t, r sin t, ht) at any scale: κ = r/(r²+h²), τ = h/(r²+h²), the normal points to the axis.
+    for scale in [1e-140, 1e-6, 1.0, 1e6, 1e140] {
+        for (r, h) in [(3.0, 4.0), (3.0, -4.0), (1.0, 1e-3)] {
+            for t in [0.0, 0.7, 4.0_f64] {
+                let (s, c) = t.sin_cos();
+                let at = |x: f64, y: f64, z: f64| DVec3::new(r * x, r * y, h * z) * scale;
+                let jet = CurveJet::from([at(c, s, t), at(-s, c, 1.0), at(-c, -s, 0.0), at(s, -c, 0.0)]);
+                let frame = jet.frenet_frame().unwrap();
+                let square = r * r + h * h;
+                assert!(frame.normal.distance(DVec3::new(-c, -s, 0.0)) < 8.0 * UNIT_ROUNDOFF);
+                assert!(frame.tangent.cross(frame.normal).distance(frame.binormal) < 8.0 * UNIT_ROUNDOFF);
+                assert!((frame.curvature * scale * square / r - 1.0).abs() < 16.0 * UNIT_ROUNDOFF);
+                assert!((frame.torsion * scale * square / h - 1.0).abs() < 1e-12, "{scale} {h} {t}");
+            }
+        }
+    }
+    let straight = CurveJet { d1: DVec3::ONE, d2: DVec3::splat(-2.0), ..CurveJet::default() };
+    assert_eq!(straight.frenet_frame(), None);
 }

@@ -1,33 +1,48 @@
-//! Polynomial Bézier curves.
+//! Bézier curves, polynomial and rational: construction and evaluation.
 
-use casteljau_bernstein::{derivatives, elevate, subdivide, value};
-use casteljau_geom::glam::DVec3;
-use casteljau_geom::{BoundingBox, CurveJet, UNIT_ROUNDOFF};
+use casteljau_bernstein::{MAX_DEGREE, basis_barycentric, derivatives, value};
+use casteljau_geom::glam::{DVec3, DVec4};
+use casteljau_geom::{BoundingBox, CurveJet, Interval, rounding_bound};
 
-use crate::ShapeError;
+use crate::control_point::{checked, hull_box, largest_weight, lifted, private::Projective};
 use crate::error::{check_degree, check_points};
+use crate::{ControlPoint, Parameters, ParametricCurve, ShapeError};
 
-/// A polynomial Bézier curve over `[0, 1]`, `C(t) = Σ Bᵢⁿ(t) Pᵢ`.
+/// A Bézier curve over an interval `[a, b]`, `C(t) = Σ Bᵢⁿ(s) Pᵢ` with `s = (t−a)/(b−a)`.
 ///
+/// [`Curve`] is the polynomial one, [`RationalCurve`] the rational one, whose control points are homogeneous.
 /// There is at least one control point, all are finite, and the degree is at most
-/// [`MAX_DEGREE`](casteljau_bernstein::MAX_DEGREE). Control points may coincide. Evaluation at a parameter
-/// that is not finite gives NaN, at any other one a finite answer, unless the polynomial itself leaves the
-/// range of f64.
+/// [`MAX_DEGREE`]. Control points may coincide.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Curve {
-    control_points: Vec<DVec3>,
+pub struct BezierCurve<P> {
+    interval: Interval,
+    control_points: Vec<P>,
 }
 
-impl Curve {
-    /// The curve with the given control points; its degree is their number less one.
-    ///
-    /// # Errors
-    /// [`ShapeError::NoControlPoints`], [`ShapeError::Degree`], [`ShapeError::Coordinate`].
-    pub fn new(control_points: impl Into<Vec<DVec3>>) -> Result<Self, ShapeError> {
-        let control_points = control_points.into();
-        check_degree(control_points.len().checked_sub(1).ok_or(ShapeError::NoControlPoints)?)?;
-        check_points(&control_points)?;
-        Ok(Self { control_points })
+/// A polynomial Bézier curve, `C(t) = Σ Bᵢⁿ(t) Pᵢ` over `[0, 1]` unless given another interval.
+///
+/// Evaluation at a parameter that is not finite gives NaN, at any other one a finite answer, unless the
+/// polynomial itself leaves the range of f64.
+pub type Curve = BezierCurve<DVec3>;
+
+/// A rational Bézier curve, `C(t) = Σ Bᵢⁿ(t) wᵢ Pᵢ / Σ Bᵢⁿ(t) wᵢ`, held homogeneous: (w·x, w·y, w·z, w).
+///
+/// Weights may be zero or negative. Where the denominator vanishes within its rounding bound the answer is
+/// [`ShapeError::Evaluation`].
+///
+/// ```
+/// use casteljau_shape::{RationalCurve, geom::glam::DVec3};
+/// let quarter = RationalCurve::new(&[DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::Y], &[1.0, 1.0, 2.0])?;
+/// assert_eq!(quarter.point(0.5)?, DVec3::new(0.6, 0.8, 0.0)); // on the unit circle
+/// # Ok::<(), casteljau_shape::ShapeError>(())
+/// ```
+pub type RationalCurve = BezierCurve<DVec4>;
+
+impl<P: ControlPoint> BezierCurve<P> {
+    /// Makes a curve of points that were checked.
+    pub(crate) fn checked(interval: Interval, control_points: Vec<P>) -> Self {
+        debug_assert!(!control_points.is_empty());
+        Self { interval, control_points }
     }
 
     /// Degree n.
@@ -36,107 +51,128 @@ impl Curve {
         self.control_points.len() - 1
     }
 
-    /// Control points `P₀ … Pₙ`.
+    /// Control points `P₀ … Pₙ`; homogeneous ones, (w·x, w·y, w·z, w), where the curve is rational.
     #[must_use]
-    pub fn control_points(&self) -> &[DVec3] {
+    pub fn control_points(&self) -> &[P] {
         &self.control_points
     }
 
-    /// Point `C(t) = Σ Bᵢⁿ(t) Pᵢ`, by nested multiplication.
-    ///
-    /// `t` may lie outside `[0, 1]`: the polynomial is continued, not clamped. The ends are met to the bit.
-    /// Error: at most 4(n+2)·u·Σ|Bᵢⁿ(t)||Pᵢ|, u = 2⁻⁵³. Cost: O(n), no allocation.
+    /// The interval `[a, b]` of the parameter.
     #[must_use]
-    pub fn point(&self, t: f64) -> DVec3 {
-        value(&self.control_points, t)
+    pub fn interval(&self) -> Interval {
+        self.interval
     }
 
-    /// Point and derivatives up to order 3, `dᵏC/dtᵏ = n!/(n−k)! Σ Bᵢⁿ⁻ᵏ(t) Δᵏ Pᵢ`.
+    /// The same curve with its parameter running over another interval: the linear reparametrisation.
+    ///
+    /// ```
+    /// use casteljau_shape::{Curve, geom::{Interval, glam::DVec3}};
+    /// let line = Curve::new([DVec3::ZERO, DVec3::X])?.with_interval(Interval::new(2.0, 4.0)?);
+    /// assert_eq!((line.point(3.0), line.jet(3.0).d1), (DVec3::X / 2.0, DVec3::X / 2.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn with_interval(self, interval: Interval) -> Self {
+        Self { interval, ..self }
+    }
+
+    /// `s = (t−a)/(b−a)`.
+    pub(crate) fn local(&self, t: f64) -> f64 {
+        self.interval.local(t)
+    }
+
+    /// A bound on the error of the denominator `w`, which was computed at `s`.
+    fn weight_error(&self, s: f64, w: f64) -> f64 {
+        let degree = self.degree();
+        // On [0, 1] the largest weight bounds them all, and is mostly enough to show that w is none.
+        let rough = rounding_bound(degree, 0, largest_weight(&self.control_points));
+        if (0.0..=1.0).contains(&s) && w.abs() > rough {
+            return rough;
+        }
+        let mut basis = [0.0; MAX_DEGREE + 1];
+        basis_barycentric((1.0 - s).abs(), s.abs(), &mut basis[..=degree]);
+        let terms = self.control_points.iter().zip(basis).map(|(p, b)| b * p.homogeneous().w.abs());
+        rounding_bound(degree, 0, terms.sum())
+    }
+}
+
+/// From derivatives with respect to `s = (t−a)/(b−a)` to those with respect to t, `dᵏ/dtᵏ = (b−a)⁻ᵏ dᵏ/dsᵏ`.
+fn per_unit_of(interval: Interval, out: &mut [DVec3]) {
+    let length = interval.length();
+    for (order, derivative) in out.iter_mut().enumerate().skip(1) {
+        // One division after another: no power of the length leaves the range before the answer does.
+        for _ in 0..order {
+            *derivative /= length;
+        }
+    }
+}
+
+impl<P: ControlPoint> ParametricCurve for BezierCurve<P> {
+    fn interval(&self) -> Interval {
+        self.interval
+    }
+
+    fn try_partials(&self, t: f64, out: &mut [DVec3]) -> Result<(), ShapeError> {
+        let at = Parameters::Curve(t).finite()?;
+        let s = self.local(t);
+        let kernel = |net: &mut [P]| derivatives(&self.control_points, s, net);
+        P::project::<1>(out, kernel, |w| self.weight_error(s, w))
+            .map_err(|source| ShapeError::Evaluation { at, source })?;
+        per_unit_of(self.interval, out);
+        if out.iter().all(|d| d.is_finite()) { Ok(()) } else { Err(ShapeError::overflow(at)) }
+    }
+
+    fn weight(&self, t: f64) -> f64 {
+        value(&self.control_points, self.local(t)).homogeneous().w
+    }
+}
+
+impl Curve {
+    /// The curve with the given control points over `[0, 1]`; its degree is their number less one.
+    ///
+    /// # Errors
+    /// [`ShapeError::NoControlPoints`], [`ShapeError::Degree`], [`ShapeError::Coordinate`].
+    pub fn new(control_points: impl Into<Vec<DVec3>>) -> Result<Self, ShapeError> {
+        let control_points = control_points.into();
+        check_count(control_points.len())?;
+        check_points(&control_points)?;
+        Ok(Self::checked(Interval::UNIT, control_points))
+    }
+
+    /// Point `C(t) = Σ Bᵢⁿ(s) Pᵢ`, by nested multiplication.
+    ///
+    /// `t` may lie outside the interval: the polynomial is continued, not clamped. The ends are met to the bit.
+    /// Error: at most 4(n+2)·u·Σ|Bᵢⁿ(s)||Pᵢ|, u = 2⁻⁵³, besides the rounding of s, which is exact over [0, 1].
+    /// Cost: O(n), no allocation.
+    #[must_use]
+    pub fn point(&self, t: f64) -> DVec3 {
+        value(&self.control_points, self.local(t))
+    }
+
+    /// Point and derivatives up to order 3, `dᵏC/dtᵏ = (b−a)⁻ᵏ n!/(n−k)! Σ Bᵢⁿ⁻ᵏ(s) Δᵏ Pᵢ`.
     ///
     /// Error: at most 4(n+2k+2)·u times the sum of the absolute contributions. Cost: O(n), no allocation.
     #[must_use]
     pub fn jet(&self, t: f64) -> CurveJet {
         let mut jet = [DVec3::ZERO; 4];
-        derivatives(&self.control_points, t, &mut jet);
-        let [point, d1, d2, d3] = jet;
-        CurveJet { point, d1, d2, d3 }
+        derivatives(&self.control_points, self.local(t), &mut jet);
+        per_unit_of(self.interval, &mut jet);
+        jet.into()
     }
 
-    /// The first control point, `C(0)`.
+    /// The first control point, `C(a)`.
     #[must_use]
     pub fn start(&self) -> DVec3 {
-        self.point(0.0)
+        value(&self.control_points, 0.0)
     }
 
-    /// The last control point, `C(1)`.
+    /// The last control point, `C(b)`.
     #[must_use]
     pub fn end(&self) -> DVec3 {
-        self.point(1.0)
+        value(&self.control_points, 1.0)
     }
 
-    /// Unit tangent at the start, `lim C′/|C′|` for t → 0⁺.
-    ///
-    /// It points from `P₀` to the first control point apart from it; points closer than `4u` times the
-    /// largest coordinate coincide.
-    /// `None` where all of them do.
-    #[must_use]
-    pub fn start_tangent(&self) -> Option<DVec3> {
-        leaving(self.coincidence(), self.control_points.iter())
-    }
-
-    /// Unit tangent at the end, `lim C′/|C′|` for t → 1⁻: from the last control point apart from `Pₙ` to
-    /// `Pₙ`. Otherwise as [`start_tangent`](Self::start_tangent).
-    #[must_use]
-    pub fn end_tangent(&self) -> Option<DVec3> {
-        leaving(self.coincidence(), self.control_points.iter().rev()).map(|d| -d)
-    }
-
-    /// The distance up to which control points count as one: what rounding of the largest coordinate can make.
-    fn coincidence(&self) -> f64 {
-        4.0 * UNIT_ROUNDOFF * self.control_points.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max)
-    }
-
-    /// The same curve run backwards, `C(1−t)`.
-    #[must_use]
-    pub fn reversed(&self) -> Self {
-        Self { control_points: self.control_points.iter().rev().copied().collect() }
-    }
-
-    /// The same curve as one of degree n + `by`.
-    ///
-    /// Error of each control point: at most 4(n+by+2)·u times its convex combination of absolute values; the
-    /// ends are kept to the bit.
-    ///
-    /// # Errors
-    /// [`ShapeError::Kernel`] where the degree becomes larger than
-    /// [`MAX_DEGREE`](casteljau_bernstein::MAX_DEGREE).
-    pub fn elevated(&self, by: usize) -> Result<Self, ShapeError> {
-        let count = self.control_points.len().saturating_add(by);
-        if count - 1 > casteljau_bernstein::MAX_DEGREE {
-            let limit = casteljau_bernstein::MAX_DEGREE;
-            return Err(casteljau_bernstein::BernsteinError::Degree { degree: count - 1, limit }.into());
-        }
-        let mut control_points = vec![DVec3::ZERO; count];
-        elevate(&self.control_points, &mut control_points)?;
-        Ok(Self { control_points })
-    }
-
-    /// The curve over `[0, t]` and that over `[t, 1]`, each on its own `[0, 1]`; they share `C(t)` to the bit.
-    ///
-    /// # Errors
-    /// [`ShapeError::Parameter`] where `t` is not finite, [`ShapeError::Coordinate`] where a `t` far outside
-    /// `[0, 1]` makes points out of range.
-    pub fn split(&self, t: f64) -> Result<(Self, Self), ShapeError> {
-        if !t.is_finite() {
-            return Err(ShapeError::Parameter { value: t });
-        }
-        let mut left = vec![DVec3::ZERO; self.control_points.len()];
-        let mut right = left.clone();
-        subdivide(&self.control_points, t, &mut left, &mut right)?;
-        Ok((Self::new(left)?, Self::new(right)?))
-    }
-
-    /// The box around the control points; by the convex hull property it contains the curve over `[0, 1]`.
+    /// The box around the control points; by the convex hull property it contains the curve over its interval.
     #[must_use]
     pub fn bounding_box(&self) -> BoundingBox {
         let first = self.control_points[0];
@@ -145,8 +181,98 @@ impl Curve {
     }
 }
 
-/// Unit direction from the first point to the first one farther from it than `coincidence`.
-fn leaving<'a>(coincidence: f64, mut points: impl Iterator<Item = &'a DVec3>) -> Option<DVec3> {
-    let first = points.next()?;
-    points.map(|p| p - first).find(|d| d.abs().max_element() > coincidence)?.try_normalize()
+impl RationalCurve {
+    /// The curve with the given control points and weights over `[0, 1]`.
+    ///
+    /// A control point of weight 0 contributes nothing; for a point at infinity see
+    /// [`from_homogeneous`](Self::from_homogeneous).
+    ///
+    /// # Errors
+    /// [`ShapeError::NoControlPoints`], [`ShapeError::Degree`], [`ShapeError::WeightCount`],
+    /// [`ShapeError::NoWeight`], [`ShapeError::Coordinate`] (also of the products w·x).
+    pub fn new(control_points: &[DVec3], weights: &[f64]) -> Result<Self, ShapeError> {
+        check_count(control_points.len())?;
+        Self::from_homogeneous(lifted(control_points, weights)?)
+    }
+
+    /// The curve with homogeneous control points (w·x, w·y, w·z, w) over `[0, 1]`; (x, y, z, 0) is the point
+    /// at infinity in that direction.
+    ///
+    /// ```
+    /// use casteljau_shape::{RationalCurve, geom::glam::{DVec3, DVec4}};
+    /// // Half a circle: its end tangents meet at infinity.
+    /// let half = RationalCurve::from_homogeneous([
+    ///     DVec4::new(1.0, 0.0, 0.0, 1.0),
+    ///     DVec4::new(0.0, 1.0, 0.0, 0.0),
+    ///     DVec4::new(-1.0, 0.0, 0.0, 1.0),
+    /// ])?;
+    /// assert_eq!(half.point(0.5)?, DVec3::Y);
+    /// # Ok::<(), casteljau_shape::ShapeError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ShapeError::NoControlPoints`], [`ShapeError::Degree`], [`ShapeError::NoWeight`],
+    /// [`ShapeError::Coordinate`].
+    pub fn from_homogeneous(control_points: impl Into<Vec<DVec4>>) -> Result<Self, ShapeError> {
+        let control_points = control_points.into();
+        check_count(control_points.len())?;
+        Ok(Self::checked(Interval::UNIT, checked(control_points)?))
+    }
+
+    /// The first control point, `C(a)`; `None` where it lies at infinity.
+    #[must_use]
+    pub fn start(&self) -> Option<DVec3> {
+        value(&self.control_points, 0.0).euclidean()
+    }
+
+    /// The last control point, `C(b)`; `None` where it lies at infinity.
+    #[must_use]
+    pub fn end(&self) -> Option<DVec3> {
+        value(&self.control_points, 1.0).euclidean()
+    }
+
+    /// Weights `w₀ … wₙ`.
+    pub fn weights(&self) -> impl ExactSizeIterator<Item = f64> {
+        self.control_points.iter().map(|p| p.w)
+    }
+
+    /// Point `C(t) = Σ Bᵢⁿ(s) wᵢ Pᵢ / Σ Bᵢⁿ(s) wᵢ`.
+    ///
+    /// Error: 4(n+2)·u·(Σ|Bᵢⁿ wᵢ Pᵢ| + |C|·Σ|Bᵢⁿ wᵢ|)/|w|. Cost: O(n), no allocation.
+    ///
+    /// # Errors
+    /// [`ShapeError::Parameter`] where `t` is not finite, [`ShapeError::Evaluation`] at a pole.
+    pub fn point(&self, t: f64) -> Result<DVec3, ShapeError> {
+        self.try_point(t)
+    }
+
+    /// Point and derivatives up to order 3, by the quotient rule.
+    ///
+    /// Error: at most 4(n+2k+2)·u times the sum of the absolute contributions. Cost: O(n), no allocation.
+    ///
+    /// # Errors
+    /// Those of [`point`](Self::point).
+    pub fn jet(&self, t: f64) -> Result<CurveJet, ShapeError> {
+        self.try_jet(t)
+    }
+
+    /// The box around the control points, which contains the curve where all weights have one sign.
+    ///
+    /// `None` where they have not (or a control point lies at infinity): then the hull says nothing.
+    #[must_use]
+    pub fn hull_box(&self) -> Option<BoundingBox> {
+        hull_box(&self.control_points)
+    }
+}
+
+impl From<Curve> for RationalCurve {
+    /// The same curve, all weights 1.
+    fn from(curve: Curve) -> Self {
+        let points = curve.control_points.iter().map(|p| p.extend(1.0)).collect();
+        Self::checked(curve.interval, points)
+    }
+}
+
+fn check_count(count: usize) -> Result<(), ShapeError> {
+    check_degree(count.checked_sub(1).ok_or(ShapeError::NoControlPoints)?)
 }

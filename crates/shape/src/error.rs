@@ -1,8 +1,11 @@
 //! What can be wrong with a shape, and the check every shape makes of its control points.
 
 use casteljau_bernstein::{BernsteinError, MAX_DEGREE};
-use casteljau_geom::glam::DVec3;
+use casteljau_geom::GeomError;
+use casteljau_geom::glam::DVec4;
 use thiserror::Error;
+
+use crate::{ControlPoint, Parameters};
 
 /// Coordinates beyond this are refused, so that squares of lengths and products with binomial coefficients
 /// stay finite.
@@ -32,7 +35,7 @@ pub enum ShapeError {
     Coordinate {
         /// Place of the control point in memory, from 0.
         place: usize,
-        /// 0, 1, 2 for x, y, z.
+        /// 0, 1, 2 for x, y, z (times the weight, where control points are homogeneous), 3 for the weight.
         axis: usize,
         /// The coordinate.
         value: f64,
@@ -65,6 +68,23 @@ pub enum ShapeError {
         /// The degrees with u and v.
         degrees: [usize; 2],
         /// (m+1)(n+1).
+        needed: usize,
+        /// The number given.
+        given: usize,
+    },
+
+    /// A triangle whose number of control points does not fit its degree.
+    ///
+    /// ```
+    /// use casteljau_shape::{ShapeError, Triangle, geom::glam::DVec3};
+    /// let refused = Triangle::new(2, vec![DVec3::ZERO; 5]);
+    /// assert_eq!(refused, Err(ShapeError::TriangleSize { degree: 2, needed: 6, given: 5 }));
+    /// ```
+    #[error("a triangle of degree {degree} has {needed} control points, not {given}")]
+    TriangleSize {
+        /// The degree.
+        degree: usize,
+        /// (n+1)(n+2)/2.
         needed: usize,
         /// The number given.
         given: usize,
@@ -169,6 +189,132 @@ pub enum ShapeError {
         value: f64,
     },
 
+    /// Another number of weights than of control points.
+    ///
+    /// ```
+    /// use casteljau_shape::{RationalCurve, ShapeError, geom::glam::DVec3};
+    /// let refused = RationalCurve::new(&[DVec3::ZERO, DVec3::X], &[1.0]);
+    /// assert_eq!(refused, Err(ShapeError::WeightCount { needed: 2, given: 1 }));
+    /// ```
+    #[error("{needed} control points, but {given} weights")]
+    WeightCount {
+        /// The number of control points.
+        needed: usize,
+        /// The number of weights.
+        given: usize,
+    },
+
+    /// A rational shape all of whose weights are zero: it has no point anywhere.
+    ///
+    /// ```
+    /// use casteljau_shape::{RationalCurve, ShapeError, geom::glam::DVec3};
+    /// let refused = RationalCurve::new(&[DVec3::ZERO, DVec3::X], &[0.0, -0.0]);
+    /// assert_eq!(refused, Err(ShapeError::NoWeight { control_points: 2 }));
+    /// ```
+    #[error("all {control_points} weights are zero")]
+    NoWeight {
+        /// How many control points there are.
+        control_points: usize,
+    },
+
+    /// A quantity that a construction cannot be carried out with.
+    ///
+    /// ```
+    /// use casteljau_shape::{RationalPatch, ShapeError, geom::glam::DVec3};
+    /// let refused = RationalPatch::sphere(DVec3::ZERO, -1.0);
+    /// assert_eq!(refused, Err(ShapeError::Construction { what: "radius of the sphere", value: -1.0 }));
+    /// ```
+    #[error("nothing can be constructed with {what}: {value}")]
+    Construction {
+        /// What the quantity is.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+
+    /// The weights of a rational shape do not all have one sign, so that its control points bound nothing.
+    ///
+    /// ```
+    /// use casteljau_shape::{RationalCurve, ShapeError, geom::glam::DVec3};
+    /// let curve = RationalCurve::new(&[DVec3::ZERO, DVec3::X, DVec3::Y], &[1.0, -0.5, 1.0])?;
+    /// assert_eq!(curve.reduced(1), Err(ShapeError::Unbounded));
+    /// # Ok::<(), ShapeError>(())
+    /// ```
+    #[error(
+        "the weights do not all have one sign, or a control point lies at infinity: the hull bounds nothing"
+    )]
+    Unbounded,
+
+    /// There is no point here: the denominator vanishes within its rounding, or a number leaves the range.
+    ///
+    /// ```
+    /// use casteljau_shape::{Parameters, RationalCurve, ShapeError, geom::{GeomError, glam::DVec3}};
+    /// let pole = RationalCurve::new(&[DVec3::ZERO, DVec3::X], &[1.0, -1.0])?; // w = 1 − 2t
+    /// let refused = pole.point(0.5);
+    /// assert!(matches!(
+    ///     refused,
+    ///     Err(ShapeError::Evaluation { at: Parameters::Curve(0.5), source: GeomError::Pole { .. } })
+    /// ));
+    /// # Ok::<(), ShapeError>(())
+    /// ```
+    #[error("no value at {at}: {source}")]
+    Evaluation {
+        /// The parameters.
+        at: Parameters,
+        /// Why.
+        source: GeomError,
+    },
+
+    /// There is no normal here: derivatives up to order 2 do not span a tangent plane, not even in the limit.
+    ///
+    /// ```
+    /// use casteljau_shape::{ParametricSurface, Patch, ShapeError, geom::glam::DVec3};
+    /// let line = Patch::new([1, 1], [DVec3::ZERO, DVec3::X, DVec3::ZERO, DVec3::X])?;
+    /// assert!(matches!(line.try_normal(0.5, 0.2), Err(ShapeError::NoTangentPlane { .. })));
+    /// # Ok::<(), ShapeError>(())
+    /// ```
+    #[error("no tangent plane at {at}: the derivatives are parallel or vanish")]
+    NoTangentPlane {
+        /// The parameters.
+        at: Parameters,
+    },
+
+    /// There is no moving frame here: C′ and C″ are parallel, or one of them vanishes.
+    ///
+    /// ```
+    /// use casteljau_shape::{Curve, ParametricCurve, ShapeError, geom::glam::DVec3};
+    /// let line = Curve::new([DVec3::ZERO, DVec3::X])?;
+    /// assert!(matches!(line.try_frenet_frame(0.5), Err(ShapeError::NoFrame { .. })));
+    /// # Ok::<(), ShapeError>(())
+    /// ```
+    #[error("no osculating plane at {at}: the derivatives are parallel or vanish")]
+    NoFrame {
+        /// The parameter.
+        at: Parameters,
+    },
+
+    /// The area was not reached to the accuracy asked for.
+    ///
+    /// ```
+    /// use casteljau_shape::{ParametricSurface, Patch, ShapeError, geom::glam::DVec3};
+    /// let line = Patch::new([1, 1], [DVec3::ZERO, DVec3::X, DVec3::ZERO, DVec3::X])?;
+    /// assert!(matches!(line.area(1e-6), Err(ShapeError::Area { .. }))); // it has none
+    /// # Ok::<(), ShapeError>(())
+    /// ```
+    #[error(
+        "area {area:e} is known to {reached:.1e} of itself only, {relative:.1e} was asked for ({cells} cells)"
+    )]
+    Area {
+        /// The area found.
+        area: f64,
+        /// The relative accuracy reached.
+        reached: f64,
+        /// The relative accuracy asked for.
+        relative: f64,
+        /// The number of cells that were looked at.
+        cells: usize,
+    },
+
     /// A kernel refused.
     ///
     /// ```
@@ -181,14 +327,29 @@ pub enum ShapeError {
     Kernel(#[from] BernsteinError),
 }
 
+impl ShapeError {
+    /// The answer at these parameters leaves the range of numbers.
+    pub(crate) fn overflow(at: Parameters) -> Self {
+        Self::Evaluation { at, source: GeomError::Overflow { denominator: 1.0 } }
+    }
+}
+
 /// Every coordinate finite and in range.
-pub(crate) fn check_points(points: &[DVec3]) -> Result<(), ShapeError> {
+pub(crate) fn check_points<P: ControlPoint>(points: &[P]) -> Result<(), ShapeError> {
     for (place, p) in points.iter().enumerate() {
-        for (axis, value) in p.to_array().into_iter().enumerate() {
+        for (axis, &value) in p.components().iter().enumerate() {
             if value.is_nan() || value.abs() > LARGEST_COORDINATE {
                 return Err(ShapeError::Coordinate { place, axis, value });
             }
         }
+    }
+    Ok(())
+}
+
+/// A denominator that is not zero everywhere.
+pub(crate) fn check_weight(points: &[DVec4]) -> Result<(), ShapeError> {
+    if points.iter().all(|p| p.w == 0.0) {
+        return Err(ShapeError::NoWeight { control_points: points.len() });
     }
     Ok(())
 }

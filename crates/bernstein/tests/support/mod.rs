@@ -1,6 +1,9 @@
 //! Reading the exact cases, and the numbers that properties are tried with.
 #![allow(dead_code)] // every test file uses its own share of this
 
+pub mod exact;
+pub mod simplices;
+
 use std::path::PathBuf;
 
 use proptest::prelude::*;
@@ -65,4 +68,12 @@ pub fn parameter() -> impl Strategy<Value = f64> {
         1 => (0..1000i32).prop_map(|e| 2_f64.powi(-e)),
         1 => -1.0..2.0,
     ]
+}
+
+/// The numbers of a nested array, `depth` arrays deep, in order.
+pub fn flat(value: &Value, depth: usize) -> Vec<f64> {
+    match depth {
+        0 => vec![number(value)],
+        _ => value.as_array().unwrap().iter().flat_map(|v| flat(v, depth - 1)).collect(),
+    }
 }

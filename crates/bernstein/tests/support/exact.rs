@@ -1,0 +1,263 @@
+//! The referee: Bernstein polynomials in exact rational arithmetic.
+//!
+//! Every f64 is a rational number, so kernels can be compared with the truth itself. Nothing here is clever:
+//! formulas are written as in the books.
+#![allow(dead_code)] // every test file uses its own share of this
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Signed, ToPrimitive, Zero};
+
+use super::U;
+
+/// An exact number.
+pub type Q = BigRational;
+
+/// The rational number that an f64 is.
+pub fn exact(x: f64) -> Q {
+    Q::from_float(x).unwrap()
+}
+
+pub fn exacts(x: &[f64]) -> Vec<Q> {
+    x.iter().copied().map(exact).collect()
+}
+
+pub fn absolutes(x: &[Q]) -> Vec<Q> {
+    x.iter().map(Signed::abs).collect()
+}
+
+pub fn integer(n: usize) -> Q {
+    Q::from_integer(BigInt::from(n))
+}
+
+pub fn factorial(n: usize) -> Q {
+    Q::from_integer((1..=n).map(BigInt::from).product())
+}
+
+/// `C(n, k)`, 0 for k > n.
+pub fn choose(n: usize, k: usize) -> Q {
+    let c = if k > n { 0.into() } else { (0..k).fold(BigInt::from(1), |c, j| c * (n - j) / (j + 1)) };
+    Q::from_integer(c)
+}
+
+/// `xᵏ`, with x⁰ = 1.
+pub fn power(x: &Q, k: usize) -> Q {
+    num_traits::pow(x.clone(), k)
+}
+
+/// `1, x, …, xⁿ`.
+pub fn powers(x: &Q, n: usize) -> Vec<Q> {
+    std::iter::successors(Some(Q::one()), |p| Some(p * x)).take(n + 1).collect()
+}
+
+/// Numbers over a common denominator: lists are added and multiplied so, because fractions reduced at every
+/// step are slow.
+fn common(list: &[Q]) -> (Vec<BigInt>, BigInt) {
+    let denominator = list.iter().fold(BigInt::from(1), |common, q| {
+        if (&common % q.denom()).is_zero() {
+            common
+        } else if (q.denom() % &common).is_zero() {
+            q.denom().clone()
+        } else {
+            common * q.denom()
+        }
+    });
+    let numerators = list.iter().map(|q| {
+        if *q.denom() == denominator { q.numer().clone() } else { q.numer() * (&denominator / q.denom()) }
+    });
+    (numerators.collect(), denominator)
+}
+
+/// All `C(n,i) sⁿ⁻ⁱ tⁱ`; s + t need not be 1.
+pub fn basis_of(n: usize, s: &Q, t: &Q) -> Vec<Q> {
+    let (pair, denominator) = common(&[s.clone(), t.clone()]);
+    let powers = |x: &BigInt| -> Vec<BigInt> {
+        std::iter::successors(Some(BigInt::from(1)), |p| Some(p * x)).take(n + 1).collect()
+    };
+    let (in_s, in_t) = (powers(&pair[0]), powers(&pair[1]));
+    let denominator = num_traits::pow(denominator, n);
+    let numerators = (0..=n).map(|i| choose(n, i).numer() * &in_s[n - i] * &in_t[i]);
+    numerators.map(|numerator| Q::new_raw(numerator, denominator.clone())).collect()
+}
+
+/// All Bernstein polynomials of degree n at t.
+pub fn basis(n: usize, t: &Q) -> Vec<Q> {
+    basis_of(n, &(Q::one() - t), t)
+}
+
+/// The same with both variables taken absolutely: the weights in the scale of an error bound.
+pub fn absolute_basis(n: usize, t: &Q) -> Vec<Q> {
+    basis_of(n, &(Q::one() - t).abs(), &t.abs())
+}
+
+pub fn dot(a: &[Q], b: &[Q]) -> Q {
+    let ((a, below_a), (b, below_b)) = (common(a), common(b));
+    Q::new_raw(a.iter().zip(&b).map(|(a, b)| a * b).sum(), below_a * below_b)
+}
+
+/// The product of two polynomials on the interval.
+pub fn product(a: &[Q], b: &[Q]) -> Vec<Q> {
+    let (m, n) = (a.len() - 1, b.len() - 1);
+    let ((a, below_a), (b, below_b)) = (common(a), common(b));
+    let below = below_a * below_b;
+    let mut out = vec![BigInt::from(0); m + n + 1];
+    for (i, a) in a.iter().enumerate() {
+        let a = choose(m, i).numer() * a;
+        for (j, b) in b.iter().enumerate() {
+            out[i + j] += choose(n, j).numer() * &a * b;
+        }
+    }
+    out.into_iter().enumerate().map(|(k, p)| Q::new(p, choose(m + n, k).numer() * &below)).collect()
+}
+
+/// Value of a polynomial on the interval.
+pub fn value(points: &[Q], t: &Q) -> Q {
+    dot(&basis(points.len() - 1, t), points)
+}
+
+/// The sum of the absolute contributions to [`value`].
+pub fn scale(points: &[Q], t: &Q) -> Q {
+    dot(&absolute_basis(points.len() - 1, t), &absolutes(points))
+}
+
+/// Derivative polynomial, with its n points.
+pub fn differentiate(points: &[Q]) -> Vec<Q> {
+    points.windows(2).map(|w| (&w[1] - &w[0]) * integer(points.len() - 1)).collect()
+}
+
+/// Affine combinations by a list of pairs (1 − t, t), one level each: the blossom. With pairs taken absolutely,
+/// and points too, its scale.
+pub fn blossom_of(points: &[Q], pairs: &[(Q, Q)]) -> Q {
+    let (mut level, mut below) = common(points);
+    for (s, t) in pairs {
+        let (pair, denominator) = common(&[s.clone(), t.clone()]);
+        level = level.windows(2).map(|w| &w[0] * &pair[0] + &w[1] * &pair[1]).collect();
+        below *= denominator;
+    }
+    assert_eq!(level.len(), 1, "as many arguments as the degree");
+    Q::new_raw(level.remove(0), below)
+}
+
+pub fn pair(t: &Q) -> (Q, Q) {
+    (Q::one() - t, t.clone())
+}
+
+pub fn absolute_pair(t: &Q) -> (Q, Q) {
+    ((Q::one() - t).abs(), t.abs())
+}
+
+/// The lines of a net along an axis, each mapped to a new line (of any common length): tensor kernels are
+/// one-variable kernels along each axis in turn.
+pub fn along<T: Clone>(points: &[T], degrees: &[usize], axis: usize, map: impl Fn(&[T]) -> Vec<T>) -> Vec<T> {
+    let count = degrees[axis] + 1;
+    let block: usize = degrees[axis + 1..].iter().map(|d| d + 1).product();
+    let mut out = Vec::new();
+    for slab in points.chunks(count * block) {
+        let lines: Vec<Vec<T>> =
+            (0..block).map(|j| map(&slab[j..].iter().step_by(block).cloned().collect::<Vec<_>>())).collect();
+        for i in 0..lines[0].len() {
+            out.extend(lines.iter().map(|line| line[i].clone()));
+        }
+    }
+    out
+}
+
+/// Value of a tensor product; `weights[axis]` are the basis functions along that axis.
+pub fn tensor_sum(points: &[Q], weights: &[Vec<Q>]) -> Q {
+    match weights.split_first() {
+        None => points[0].clone(),
+        Some((first, rest)) => {
+            let slab = points.len() / first.len();
+            first.iter().zip(points.chunks(slab)).map(|(w, p)| w * tensor_sum(p, rest)).sum()
+        }
+    }
+}
+
+/// `|computed − exact| ≤ factor·u·scale`, but for the smallest normal number.
+#[track_caller]
+pub fn assert_within(computed: f64, truth: &Q, scale: &Q, factor: usize, what: &str) {
+    assert!(computed.is_finite(), "{what}: {computed}");
+    let off = (exact(computed) - truth).abs();
+    let allowed = integer(factor) * exact(U) * scale + exact(f64::MIN_POSITIVE);
+    assert!(
+        off <= allowed,
+        "{what}: {computed:e} instead of {:e}, off {:e}, allowed {:e}",
+        truth.to_f64().unwrap_or(f64::NAN),
+        off.to_f64().unwrap_or(f64::NAN),
+        allowed.to_f64().unwrap_or(f64::NAN)
+    );
+}
+
+/// The bound that every kernel keeps: `4(degree + 2·order + 2)`.
+pub fn factor(degree: usize, order: usize) -> usize {
+    4 * (degree + 2 * order + 2)
+}
+
+/// A repeatable source of numbers that hunt for trouble: half of them near 0, ±1 or a power of two, the rest
+/// with exponents spread; repeats are frequent.
+pub struct Hunter(u64);
+
+impl Hunter {
+    pub fn new(seed: u64) -> Self {
+        Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
+    }
+
+    pub fn bits(&mut self) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        self.0.wrapping_mul(0x2545_F491_4F6C_DD1D)
+    }
+
+    /// One of 0, …, n − 1.
+    pub fn below(&mut self, n: usize) -> usize {
+        ((self.bits() >> 33) as usize) % n
+    }
+
+    /// Evenly in [0, 1).
+    pub fn unit(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 * U
+    }
+
+    /// A coordinate.
+    pub fn number(&mut self) -> f64 {
+        let sign = if self.bits() & 1 == 0 { 1.0 } else { -1.0 };
+        let ulps = self.below(65) as f64 - 32.0;
+        sign * match self.below(8) {
+            0 => 0.0,
+            1 => 1.0 + ulps * U,
+            2 => 2_f64.powi(self.below(81) as i32 - 40) * (1.0 + ulps * 2.0 * U),
+            3 => self.unit() * 2_f64.powi(self.below(61) as i32 - 30),
+            4 if self.below(8) == 0 => self.unit() * 2_f64.powi(-(self.below(900) as i32)),
+            _ => self.unit() * 4.0 - 2.0,
+        }
+    }
+
+    /// Coordinates, with repeats.
+    pub fn numbers(&mut self, count: usize) -> Vec<f64> {
+        let mut list: Vec<f64> = Vec::with_capacity(count);
+        for i in 0..count {
+            let x = if i > 0 && self.below(6) == 0 { list[i - 1] } else { self.number() };
+            list.push(x);
+        }
+        list
+    }
+
+    /// A parameter: inside, at the ends, very near them, and outside.
+    pub fn parameter(&mut self) -> f64 {
+        match self.below(12) {
+            0 => 0.0,
+            1 => 1.0,
+            2 => self.below(64) as f64 * U,
+            3 => 1.0 - self.below(64) as f64 * U,
+            4 => 2_f64.powi(-(self.below(60) as i32)),
+            5 => self.unit() * 3.0 - 1.0,
+            _ => self.unit(),
+        }
+    }
+
+    /// A degree: mostly small, now and then up to `most`.
+    pub fn degree(&mut self, most: usize) -> usize {
+        if self.below(250) == 0 { self.below(most + 1) } else { self.below(most.min(9) + 1) }
+    }
+}

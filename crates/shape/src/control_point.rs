@@ -1,0 +1,185 @@
+//! Control points of shapes: Euclidean, or homogeneous with a weight.
+
+use casteljau_bernstein::Point;
+use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
+use casteljau_geom::{BoundingBox, GeomError, partial_count, quotient_partials, rounding_bound};
+
+use crate::ShapeError;
+use crate::error::{check_points, check_weight};
+
+/// What the control points of a shape may be: `DVec3` for polynomial shapes, `DVec4` = (w·x, w·y, w·z, w) for
+/// rational ones.
+///
+/// Everything that is linear in the control points is written once for both; the rational ones are divided by
+/// their weight at the end, by the quotient rule. No other type can be one.
+pub trait ControlPoint: Point + private::Projective {}
+
+impl ControlPoint for DVec3 {}
+impl ControlPoint for DVec4 {}
+
+/// Derivatives of a rational shape are kept on the stack while there are at most so many: a surface's up to
+/// order 7.
+const ON_STACK: usize = partial_count::<2>(7);
+
+pub(crate) mod private {
+    use super::*;
+
+    /// A point of projective space, seen from the shape that it controls.
+    pub trait Projective: Point {
+        /// Whether there is a weight to divide by.
+        const RATIONAL: bool;
+
+        /// The numbers in memory.
+        fn components(&self) -> &[f64];
+
+        /// `(w·x, w·y, w·z, w)`.
+        fn homogeneous(self) -> DVec4;
+
+        /// The point in space; `None` at infinity.
+        fn euclidean(self) -> Option<DVec3>;
+
+        /// Derivatives of the shape in N parameters, from the kernel that fills in those of its net.
+        ///
+        /// `uncertainty` bounds the error of the weight that it is given.
+        fn project<const N: usize>(
+            out: &mut [DVec3],
+            kernel: impl FnOnce(&mut [Self]),
+            uncertainty: impl FnOnce(f64) -> f64,
+        ) -> Result<(), GeomError>;
+    }
+
+    impl Projective for DVec3 {
+        const RATIONAL: bool = false;
+
+        fn components(&self) -> &[f64] {
+            self.as_ref()
+        }
+
+        fn homogeneous(self) -> DVec4 {
+            self.extend(1.0)
+        }
+
+        fn euclidean(self) -> Option<DVec3> {
+            Some(self)
+        }
+
+        fn project<const N: usize>(
+            out: &mut [DVec3],
+            kernel: impl FnOnce(&mut [Self]),
+            _: impl FnOnce(f64) -> f64,
+        ) -> Result<(), GeomError> {
+            kernel(out);
+            if out.iter().all(|d| d.is_finite()) {
+                Ok(())
+            } else {
+                Err(GeomError::Overflow { denominator: 1.0 })
+            }
+        }
+    }
+
+    impl Projective for DVec4 {
+        const RATIONAL: bool = true;
+
+        fn components(&self) -> &[f64] {
+            self.as_ref()
+        }
+
+        fn homogeneous(self) -> DVec4 {
+            self
+        }
+
+        fn euclidean(self) -> Option<DVec3> {
+            let p = self.xyz() / self.w;
+            p.is_finite().then_some(p)
+        }
+
+        fn project<const N: usize>(
+            out: &mut [DVec3],
+            kernel: impl FnOnce(&mut [Self]),
+            uncertainty: impl FnOnce(f64) -> f64,
+        ) -> Result<(), GeomError> {
+            let mut stack = [DVec4::ZERO; ON_STACK];
+            let mut heap = Vec::new();
+            let net = match stack.get_mut(..out.len()) {
+                Some(net) => net,
+                None => {
+                    heap.resize(out.len(), DVec4::ZERO);
+                    &mut heap[..]
+                }
+            };
+            kernel(net);
+            let Some(value) = net.first() else { return Ok(()) };
+            quotient_partials::<N>(net, uncertainty(value.w), out)
+        }
+    }
+}
+
+/// Homogeneous control points from Euclidean ones with their weights; one of weight 0 contributes nothing.
+pub(crate) fn lifted(points: &[DVec3], weights: &[f64]) -> Result<Vec<DVec4>, ShapeError> {
+    if points.len() != weights.len() {
+        return Err(ShapeError::WeightCount { needed: points.len(), given: weights.len() });
+    }
+    check_points(points)?;
+    for (place, &weight) in weights.iter().enumerate() {
+        if !weight.is_finite() {
+            return Err(ShapeError::Coordinate { place, axis: 3, value: weight });
+        }
+    }
+    Ok(points.iter().zip(weights).map(|(&p, &w)| (p * w).extend(w)).collect())
+}
+
+/// Homogeneous control points, checked.
+pub(crate) fn checked(points: Vec<DVec4>) -> Result<Vec<DVec4>, ShapeError> {
+    check_points(&points)?;
+    check_weight(&points)?;
+    Ok(points)
+}
+
+/// The largest weight in absolute value.
+pub(crate) fn largest_weight<P: ControlPoint>(points: &[P]) -> f64 {
+    points.iter().map(|p| p.homogeneous().w.abs()).fold(0.0, f64::max)
+}
+
+/// Whether all weights are positive, or all are negative: then the shape lies in the hull of its control
+/// points.
+pub(crate) fn has_hull<P: ControlPoint>(points: &[P]) -> bool {
+    let sign = points.first().map_or(1.0, |p| p.homogeneous().w.signum());
+    points.iter().all(|p| p.homogeneous().w * sign > 0.0)
+}
+
+/// The box around the control points in space; `None` unless [`has_hull`], or where a quotient overflows.
+pub(crate) fn hull_box<P: ControlPoint>(points: &[P]) -> Option<BoundingBox> {
+    if !has_hull(points) {
+        return None;
+    }
+    BoundingBox::from_points(points.iter().map(|p| p.euclidean().unwrap_or(DVec3::NAN)))
+}
+
+/// A bound on the distance of two rational shapes in space at equal parameters, from their nets of one degree.
+///
+/// With N/w and N′/w′, both seen from a point c, it is `|(N−N′) − (N/w)(w−w′)|/|w′| ≤ (δ_N + R δ_w)/min w′`, R being
+/// the largest distance of a control point of the first shape from c. `degree` is the total one, for an allowance
+/// for the rounding of the second net.
+pub(crate) fn distance_bound<P: ControlPoint>(
+    points: &[P],
+    nearby: &[P],
+    degree: usize,
+) -> Result<f64, ShapeError> {
+    let (Some(bounds), true) = (hull_box(points), has_hull(nearby)) else {
+        return Err(ShapeError::Unbounded);
+    };
+    let center = bounds.center();
+    let (mut in_space, mut in_weight, mut radius) = (0.0_f64, 0.0_f64, 0.0_f64);
+    let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
+    for (p, q) in points.iter().zip(nearby) {
+        let (p, q) = (p.homogeneous(), q.homogeneous());
+        let seen = |p: DVec4| p.xyz() - center * p.w;
+        in_space = in_space.max(seen(p).distance(seen(q)));
+        in_weight = in_weight.max((p.w - q.w).abs());
+        radius = radius.max((seen(p) / p.w).length());
+        least = least.min(q.w.abs());
+        most = most.max(p.w.abs()).max(q.w.abs());
+    }
+    let rounding = rounding_bound(degree, 0, 2.0 * most * (radius + center.length()));
+    Ok((in_space + radius * in_weight + rounding) / least)
+}

@@ -1,0 +1,268 @@
+//! What all curves, and all surfaces, answer.
+
+use std::fmt;
+
+use casteljau_geom::glam::{DVec2, DVec3};
+use casteljau_geom::{Curvatures, CurveJet, FrenetFrame, Interval, Partials, SurfaceJet, TangentPlane};
+
+use crate::ShapeError;
+use crate::area::area;
+
+/// The parameters at which something happened to a shape.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Parameters {
+    /// t on a curve.
+    Curve(f64),
+    /// (u, v) on a patch, (λ₁, λ₂) on a triangle.
+    Surface([f64; 2]),
+}
+
+impl Parameters {
+    /// The parameters, unless one of them is not finite.
+    pub(crate) fn finite(self) -> Result<Self, ShapeError> {
+        let values = match self {
+            Self::Curve(t) => [t, 0.0],
+            Self::Surface(uv) => uv,
+        };
+        match values.into_iter().find(|x| !x.is_finite()) {
+            Some(value) => Err(ShapeError::Parameter { value }),
+            None => Ok(self),
+        }
+    }
+}
+
+impl fmt::Display for Parameters {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Curve(t) => write!(f, "t = {t}"),
+            Self::Surface([u, v]) => write!(f, "({u}, {v})"),
+        }
+    }
+}
+
+/// A curve over an interval: polynomial or rational, in Bernstein or power form.
+///
+/// Programs that treat all kinds alike are written against this trait. The methods here can fail, as rational
+/// curves have poles; the types' own methods say where they cannot.
+///
+/// ```
+/// use casteljau_shape::{Curve, ParametricCurve, RationalCurve, geom::glam::DVec3};
+/// let net = [DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::Y];
+/// let (parabola, circle) = (Curve::new(net)?, RationalCurve::new(&net, &[1.0, 1.0, 2.0])?);
+/// let kinds: [&dyn ParametricCurve; 2] = [&parabola, &circle];
+/// for curve in kinds {
+///     assert_eq!(curve.try_point(0.0)?, DVec3::X);
+/// }
+/// let frame = circle.try_frenet_frame(0.3)?;
+/// assert!((frame.curvature - 1.0).abs() < 1e-14);
+/// # Ok::<(), casteljau_shape::ShapeError>(())
+/// ```
+pub trait ParametricCurve {
+    /// The interval that the parameter runs over.
+    fn interval(&self) -> Interval;
+
+    /// Point and derivatives with respect to the parameter, `out[k] = dᵏC/dtᵏ`, up to the order that fits.
+    ///
+    /// The curve is continued beyond its interval. Error: as the type states.
+    ///
+    /// # Errors
+    /// [`ShapeError::Parameter`] where `t` is not finite, [`ShapeError::Evaluation`] at a pole, and where an
+    /// answer would leave the range of numbers; `out` is then not to be used.
+    fn try_partials(&self, t: f64, out: &mut [DVec3]) -> Result<(), ShapeError>;
+
+    /// The denominator w(t); 1 for a polynomial curve.
+    fn weight(&self, t: f64) -> f64;
+
+    /// Point `C(t)`.
+    ///
+    /// # Errors
+    /// Those of [`try_partials`](Self::try_partials).
+    fn try_point(&self, t: f64) -> Result<DVec3, ShapeError> {
+        let mut out = [DVec3::ZERO];
+        self.try_partials(t, &mut out)?;
+        Ok(out[0])
+    }
+
+    /// Point and derivatives up to order 3: tangent, curvature and torsion are computed from it.
+    ///
+    /// # Errors
+    /// Those of [`try_partials`](Self::try_partials).
+    fn try_jet(&self, t: f64) -> Result<CurveJet, ShapeError> {
+        let mut out = [DVec3::ZERO; 4];
+        self.try_partials(t, &mut out)?;
+        Ok(out.into())
+    }
+
+    /// Point and derivatives of any order.
+    ///
+    /// # Errors
+    /// Those of [`try_partials`](Self::try_partials).
+    fn try_jet_of_order(&self, t: f64, order: usize) -> Result<Partials<1>, ShapeError> {
+        let mut jet = Partials::zero(order);
+        self.try_partials(t, jet.as_mut_slice())?;
+        Ok(jet)
+    }
+
+    /// Tangent, principal normal and binormal with curvature and torsion.
+    ///
+    /// # Errors
+    /// [`ShapeError::NoFrame`] where C′ × C″ vanishes, and those of [`try_partials`](Self::try_partials).
+    fn try_frenet_frame(&self, t: f64) -> Result<FrenetFrame, ShapeError> {
+        self.try_jet(t)?.frenet_frame().ok_or(ShapeError::NoFrame { at: Parameters::Curve(t) })
+    }
+}
+
+/// The parameters of a surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SurfaceDomain {
+    /// (u, v) in a rectangle.
+    Rectangle([Interval; 2]),
+    /// The first two barycentric coordinates, `λ₁, λ₂ ≥ 0`, `λ₁ + λ₂ ≤ 1`.
+    Triangle,
+}
+
+impl SurfaceDomain {
+    /// The middle of the domain.
+    #[must_use]
+    pub fn center(&self) -> [f64; 2] {
+        match self {
+            Self::Rectangle(intervals) => intervals.map(|i| i.at(0.5)),
+            Self::Triangle => [1.0 / 3.0; 2],
+        }
+    }
+
+    /// Whether the parameters lie in the domain, its boundary included.
+    #[must_use]
+    pub fn contains(&self, [u, v]: [f64; 2]) -> bool {
+        match self {
+            Self::Rectangle(intervals) => intervals[0].contains(u) && intervals[1].contains(v),
+            Self::Triangle => u >= 0.0 && v >= 0.0 && u + v <= 1.0,
+        }
+    }
+
+    /// Extent in each parameter.
+    #[must_use]
+    pub fn lengths(&self) -> [f64; 2] {
+        match self {
+            Self::Rectangle(intervals) => intervals.map(|i| i.length()),
+            Self::Triangle => [1.0; 2],
+        }
+    }
+
+    /// The direction to the middle, in units of [`lengths`](Self::lengths).
+    fn inward(&self, [u, v]: [f64; 2]) -> DVec2 {
+        let ([cu, cv], [a, b]) = (self.center(), self.lengths());
+        DVec2::new((cu - u) / a, (cv - v) / b)
+    }
+}
+
+/// A surface over a rectangle or a triangle: polynomial or rational, in Bernstein or power form.
+///
+/// Programs that treat all kinds alike are written against this trait. The methods here can fail, as rational
+/// surfaces have poles and edges may collapse.
+pub trait ParametricSurface {
+    /// The domain of the parameters.
+    fn domain(&self) -> SurfaceDomain;
+
+    /// Point and partial derivatives with respect to the parameters, at the places
+    /// [`partial_index`](casteljau_geom::partial_index)`([a, b])` of `out`, up to the total order that fits.
+    ///
+    /// The surface is continued beyond its domain. Error: as the type states.
+    ///
+    /// # Errors
+    /// [`ShapeError::Parameter`] where a parameter is not finite, [`ShapeError::Evaluation`] at a pole, and
+    /// where an answer would leave the range of numbers; `out` is then not to be used.
+    fn try_partials(&self, u: f64, v: f64, out: &mut [DVec3]) -> Result<(), ShapeError>;
+
+    /// The denominator w(u,v); 1 for a polynomial surface.
+    fn weight(&self, u: f64, v: f64) -> f64;
+
+    /// Point `S(u,v)`.
+    ///
+    /// # Errors
+    /// Those of [`try_partials`](Self::try_partials).
+    fn try_point(&self, u: f64, v: f64) -> Result<DVec3, ShapeError> {
+        let mut out = [DVec3::ZERO];
+        self.try_partials(u, v, &mut out)?;
+        Ok(out[0])
+    }
+
+    /// Point and partial derivatives up to order 2: the fundamental forms are computed from it.
+    ///
+    /// # Errors
+    /// Those of [`try_partials`](Self::try_partials).
+    fn try_jet(&self, u: f64, v: f64) -> Result<SurfaceJet, ShapeError> {
+        let mut out = [DVec3::ZERO; 6];
+        self.try_partials(u, v, &mut out)?;
+        Ok(out.into())
+    }
+
+    /// Point and partial derivatives of any total order.
+    ///
+    /// # Errors
+    /// Those of [`try_partials`](Self::try_partials).
+    fn try_jet_of_order(&self, u: f64, v: f64, order: usize) -> Result<Partials<2>, ShapeError> {
+        let mut jet = Partials::zero(order);
+        self.try_partials(u, v, jet.as_mut_slice())?;
+        Ok(jet)
+    }
+
+    /// Unit normal `∂u × ∂v / |∂u × ∂v|`; where that collapses, its limit on the way to the middle of the
+    /// domain, see [`SurfaceJet::normal_toward`].
+    ///
+    /// # Errors
+    /// [`ShapeError::NoTangentPlane`] where derivatives up to order 2 do not decide, and those of
+    /// [`try_partials`](Self::try_partials).
+    fn try_normal(&self, u: f64, v: f64) -> Result<DVec3, ShapeError> {
+        let domain = self.domain();
+        let jet = self.try_jet(u, v)?.rescaled(domain.lengths());
+        let at = Parameters::Surface([u, v]);
+        jet.normal_toward(domain.inward([u, v])).ok_or(ShapeError::NoTangentPlane { at })
+    }
+
+    /// Tangent plane, by the normal of [`try_normal`](Self::try_normal).
+    ///
+    /// # Errors
+    /// Those of [`try_normal`](Self::try_normal).
+    fn try_tangent_plane(&self, u: f64, v: f64) -> Result<TangentPlane, ShapeError> {
+        let normal = self.try_normal(u, v)?;
+        Ok(TangentPlane { normal, offset: normal.dot(self.try_point(u, v)?) })
+    }
+
+    /// Gaussian, mean and principal curvatures with their directions, at a regular point.
+    ///
+    /// # Errors
+    /// [`ShapeError::NoTangentPlane`] where the first derivatives do not span a plane, and those of
+    /// [`try_partials`](Self::try_partials).
+    fn try_curvatures(&self, u: f64, v: f64) -> Result<Curvatures, ShapeError> {
+        // In units of the domain, so that no interval makes a derivative look collapsed.
+        let jet = self.try_jet(u, v)?.rescaled(self.domain().lengths());
+        jet.curvatures().ok_or(ShapeError::NoTangentPlane { at: Parameters::Surface([u, v]) })
+    }
+
+    /// Area `∬ |∂u × ∂v| du dv` over the domain, with an error of at most `relative` times itself.
+    ///
+    /// The domain is cut into cells, worst first, until the changes from Gauss's rule of 16 × 16 points on a cell to
+    /// the same rule on its four quarters, and a bound on the rounding, add up to no more than was asked for. That is an estimate, on the safe side where the surface is smooth over the cells; it is no certificate,
+    /// as that of arc lengths is. Creases, where the normal turns over, cost cells. Cost: about 0.1 ms for a regular
+    /// bicubic patch at 1e-10.
+    ///
+    /// ```
+    /// use casteljau_shape::{ParametricSurface, RationalPatch, geom::glam::DVec3};
+    /// let octant = RationalPatch::sphere_octant(DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z)?;
+    /// assert!((octant.area(1e-12)? - std::f64::consts::FRAC_PI_2).abs() < 2e-12);
+    /// # Ok::<(), casteljau_shape::ShapeError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ShapeError::Accuracy`] unless 0 < `relative` < 1, [`ShapeError::Area`] where the accuracy was not reached,
+    /// as it never is for a surface without area; those of [`try_partials`](Self::try_partials).
+    fn area(&self, relative: f64) -> Result<f64, ShapeError> {
+        let tangents = |[u, v]: [f64; 2]| {
+            let mut out = [DVec3::ZERO; 3];
+            self.try_partials(u, v, &mut out)?;
+            Ok([out[1], out[2]])
+        };
+        area(&tangents, self.domain(), relative)
+    }
+}
