@@ -155,14 +155,15 @@ pub enum ShapeError {
         pieces: usize,
     },
 
-    /// A weight that is not a positive number, where only such weights are served.
+    /// A weight that is not positive, where all must be (or all negative).
     ///
     /// ```
-    /// use casteljau_shape::{CurveProjector, ShapeError, geom::glam::DVec4};
-    /// let refused = CurveProjector::from_homogeneous(&[DVec4::W, -DVec4::W]);
-    /// assert_eq!(refused.err(), Some(ShapeError::Weight { place: 1, value: -1.0 }));
+    /// use casteljau_shape::{CurveProjector, RationalCurve, ShapeError, geom::glam::DVec3};
+    /// let curve = RationalCurve::new(&[DVec3::ZERO, DVec3::X], &[1.0, -1.0])?; // with a pole
+    /// assert_eq!(CurveProjector::new(&curve).err(), Some(ShapeError::Weight { place: 1, value: -1.0 }));
+    /// # Ok::<(), ShapeError>(())
     /// ```
-    #[error("control point {place} has the weight {value}, which is not a positive number in range")]
+    #[error("control point {place} has the weight {value}, which is not positive")]
     Weight {
         /// Place of the control point in memory, from 0.
         place: usize,

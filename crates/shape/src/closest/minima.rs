@@ -1,6 +1,7 @@
 //! All local minima of the distance, each isolated from the others.
 
 use casteljau_geom::glam::DVec3;
+use casteljau_geom::{Interval, UNIT_ROUNDOFF};
 
 use super::newton::{Stationary, descend};
 use super::piece::{Assessment, Piece};
@@ -24,6 +25,28 @@ pub struct LocalMinimum<const D: usize> {
     pub point: DVec3,
     /// Its distance from the query.
     pub distance: f64,
+}
+
+impl<const D: usize> LocalMinimum<D> {
+    /// From parameters of `[0, 1]ᴰ` to those of the shape's intervals.
+    pub(super) fn over(self, intervals: [Interval; D]) -> Self {
+        let length = |k: usize| intervals[k].length();
+        let rounding = |k: usize| {
+            let mapped = intervals[k] == Interval::UNIT;
+            let largest = intervals[k].start().abs().max(intervals[k].end().abs());
+            if mapped { 0.0 } else { 4.0 * UNIT_ROUNDOFF * largest }
+        };
+        Self {
+            parameters: std::array::from_fn(|k| intervals[k].at(self.parameters[k])),
+            uncertainty: std::array::from_fn(|k| self.uncertainty[k] * length(k) + rounding(k)),
+            ..self
+        }
+    }
+}
+
+/// Boxes of `[0, 1]ᴰ` as boxes of the shape's parameters.
+pub(super) fn over<const D: usize>(areas: Vec<Area<D>>, intervals: [Interval; D]) -> Vec<Area<D>> {
+    areas.into_iter().map(|area| std::array::from_fn(|k| area[k].map(|s| intervals[k].at(s)))).collect()
 }
 
 /// All local minima of the distance from a query.

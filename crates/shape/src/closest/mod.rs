@@ -16,7 +16,7 @@
 //! from a whole curve of the shape (on the axis of a surface of revolution, say) the proof may not end within
 //! the limit of 1000 further pieces; the point is then as good as the pieces tell, and the lower bound says so.
 //!
-//! Weights must be positive. Queries allocate nothing unless pieces are left when the tree ends.
+//! Weights must have one sign. Queries allocate nothing unless pieces are left when the tree ends.
 //!
 //! Source: Johnson and Cohen, *A framework for efficient minimum distance computations*, 1998 (bounds by
 //! pieces); Hansen and Walster, *Global Optimization Using Interval Analysis*, 2nd ed., ch. 12 (monotonicity

@@ -4,8 +4,7 @@ use casteljau_bernstein::TensorNet;
 use casteljau_geom::UNIT_ROUNDOFF;
 use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
 
-use crate::ShapeError;
-use crate::error::check_points;
+use crate::{ControlPoint, ShapeError};
 
 /// Below this degree the bases of a place are kept on the stack.
 const BASIS_ON_STACK: usize = 24;
@@ -37,16 +36,14 @@ impl LocalNet {
     /// Takes a checked net into local coordinates.
     ///
     /// # Errors
-    /// [`ShapeError::Weight`] for a weight that is not positive, [`ShapeError::Coordinate`] for one out of range.
+    /// [`ShapeError::Weight`] for a weight that is not positive.
     pub fn new(points: &[DVec4], degrees: [usize; 2]) -> Result<Self, ShapeError> {
         for (place, p) in points.iter().enumerate() {
             if !(p.w > 0.0 && p.w.is_finite() && (1.0 / p.w).is_finite()) {
                 return Err(ShapeError::Weight { place, value: p.w });
             }
         }
-        let points_in_space: Vec<DVec3> = points.iter().map(|p| p.xyz() / p.w).collect();
-        check_points(&points_in_space)?;
-        let euclidean = || points_in_space.iter().copied();
+        let euclidean = || points.iter().map(|p| p.xyz() / p.w);
         let (low, high) = euclidean()
             .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
         let centre = 0.5 * low + 0.5 * high;
@@ -259,9 +256,10 @@ pub(super) fn derivative_net(net: &[DVec4], degrees: [usize; 2], axis: usize, ou
     }
 }
 
-/// The checked homogeneous net of a polynomial shape.
-pub(super) fn homogeneous(points: &[DVec3]) -> Vec<DVec4> {
-    points.iter().map(|p| p.extend(1.0)).collect()
+/// A shape's control points with their weights, which become positive if all are negative.
+pub(super) fn homogeneous<P: ControlPoint>(points: &[P]) -> Vec<DVec4> {
+    let points: Vec<DVec4> = points.iter().map(|p| p.homogeneous()).collect();
+    if points.iter().all(|p| p.w < 0.0) { points.into_iter().map(|p| -p).collect() } else { points }
 }
 
 /// The largest power of two that is not above a positive number; 1 for 0.

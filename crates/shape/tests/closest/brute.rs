@@ -2,6 +2,17 @@
 
 use casteljau_shape::bernstein::TensorNet;
 use casteljau_shape::geom::glam::{DVec3, DVec4, Vec4Swizzles};
+use casteljau_shape::{CurveProjector, PatchProjector, RationalCurve, RationalPatch};
+
+/// A projector for the rational patch with such a net.
+pub fn patch(degrees: [usize; 2], points: &[DVec4]) -> PatchProjector {
+    PatchProjector::new(&RationalPatch::from_homogeneous(degrees, points).unwrap()).unwrap()
+}
+
+/// A projector for the rational curve with such control points.
+pub fn curve(points: &[DVec4]) -> CurveProjector {
+    CurveProjector::new(&RationalCurve::from_homogeneous(points).unwrap()).unwrap()
+}
 
 /// Samples along each axis of a patch; a curve gets the square of it.
 const GRID: usize = 24;

@@ -3,9 +3,8 @@
 
 use casteljau_shape::geom::UNIT_ROUNDOFF;
 use casteljau_shape::geom::glam::DVec3;
-use casteljau_shape::{CurveProjector, PatchProjector};
 
-use crate::brute::Net;
+use crate::brute::{Net, curve, patch};
 use crate::random::Random;
 
 const SHAPES: usize = 500;
@@ -116,7 +115,7 @@ fn patches() {
         let net = net(&mut random, kind, degrees);
         let shift = random.point() * if shape % 5 == 0 { 100.0 } else { 0.0 };
         let moved = net.transformed(scale, shift * scale);
-        let projector = PatchProjector::from_homogeneous(degrees, &moved.points).unwrap();
+        let projector = patch(degrees, &moved.points);
         for _ in 0..QUERIES {
             let q = (query(&mut random, &net) + shift) * scale;
             let answer = projector.closest_point(q).unwrap();
@@ -148,7 +147,7 @@ fn curves() {
         let scale = if shape % 3 == 0 { random.spread(-6.0, 6.0) } else { 1.0 };
         let net = net(&mut random, shape % 8, degrees);
         let moved = net.transformed(scale, DVec3::ZERO);
-        let projector = CurveProjector::from_homogeneous(&moved.points).unwrap();
+        let projector = curve(&moved.points);
         for _ in 0..QUERIES {
             let q = query(&mut random, &net) * scale;
             let answer = projector.closest_point(q).unwrap();
@@ -168,7 +167,7 @@ fn good_starts_converge() {
     for shape in 0..100 {
         let degrees = [3, 3];
         let net = net(&mut random, shape % 3, degrees);
-        let projector = PatchProjector::from_homogeneous(degrees, &net.points).unwrap();
+        let projector = patch(degrees, &net.points);
         for _ in 0..10 {
             let q = query(&mut random, &net);
             let global = projector.closest_point(q).unwrap();

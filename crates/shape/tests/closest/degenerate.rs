@@ -1,7 +1,10 @@
 //! Shapes and queries of which the answer is known.
 
+use casteljau_shape::geom::Interval;
 use casteljau_shape::geom::glam::{DVec3, DVec4};
-use casteljau_shape::{Curve, CurveProjector, Patch, PatchProjector, ShapeError};
+use casteljau_shape::{Curve, CurveProjector, Patch, PatchProjector, RationalCurve, ShapeError};
+
+use crate::brute::{curve, patch};
 
 /// A quarter of the unit circle, by its homogeneous control points.
 fn quarter() -> [DVec4; 3] {
@@ -21,10 +24,10 @@ fn octant() -> Vec<DVec4> {
 
 #[test]
 fn all_points_equally_close() {
-    let projector = PatchProjector::from_homogeneous([2, 2], &octant()).unwrap();
+    let projector = patch([2, 2], &octant());
     let answer = projector.closest_point(DVec3::ZERO).unwrap();
     assert!((answer.distance - 1.0).abs() < 1e-15 && answer.lower_bound > 1.0 - 1e-12, "{answer:?}");
-    let arc = CurveProjector::from_homogeneous(&quarter()).unwrap();
+    let arc = curve(&quarter());
     let answer = arc.closest_point(DVec3::ZERO).unwrap();
     assert!((answer.distance - 1.0).abs() < 1e-15 && answer.lower_bound > 1.0 - 1e-12, "{answer:?}");
     // From the axis of the circle.
@@ -38,7 +41,7 @@ fn all_points_equally_close() {
 fn circle_of_closest_points() {
     let cylinder: Vec<DVec4> =
         quarter().iter().flat_map(|&p| [-1.0, 1.0].map(|z| DVec4::new(p.x, p.y, z * p.w, p.w))).collect();
-    let projector = PatchProjector::from_homogeneous([2, 1], &cylinder).unwrap();
+    let projector = patch([2, 1], &cylinder);
     let answer = projector.closest_point(DVec3::new(0.0, 0.0, 0.3)).unwrap();
     assert!((answer.distance - 1.0).abs() < 1e-14 && answer.lower_bound <= 1.0, "{answer:?}");
     assert!(answer.lower_bound > 1.0 - 1e-5, "{answer:?}");
@@ -46,7 +49,7 @@ fn circle_of_closest_points() {
 
 #[test]
 fn distance_to_the_sphere_is_exact() {
-    let projector = PatchProjector::from_homogeneous([2, 2], &octant()).unwrap();
+    let projector = patch([2, 2], &octant());
     for k in 1..200 {
         let [x, y, z] = [0.31, 0.47, 0.73].map(|a| (a * f64::from(k)).fract() + 1e-3);
         let q = DVec3::new(x, y, z) * 1.7;
@@ -107,12 +110,12 @@ fn extremes() {
     }
     let long: Vec<DVec3> =
         (0..=200).map(|i| DVec3::new(f64::from(i), f64::from(i % 7), f64::from(i % 3))).collect();
-    let curve = Curve::new(long).unwrap();
-    let projector = CurveProjector::new(&curve).unwrap();
+    let long = Curve::new(long).unwrap();
+    let projector = CurveProjector::new(&long).unwrap();
     let q = DVec3::new(80.0, 10.0, 0.0);
     let answer = projector.closest_point(q).unwrap();
     let brute =
-        (0..=20_000).map(|i| curve.point(f64::from(i) / 2e4).distance(q)).fold(f64::INFINITY, f64::min);
+        (0..=20_000).map(|i| long.point(f64::from(i) / 2e4).distance(q)).fold(f64::INFINITY, f64::min);
     assert!(
         answer.distance <= brute + 1e-9 && answer.lower_bound > answer.distance - 1e-9,
         "{answer:?} {brute}"
@@ -135,19 +138,29 @@ fn doors() {
     assert!(matches!(line.closest_point(DVec3::Y * 1e141), Err(ShapeError::Query { axis: 1, .. })));
     assert!(matches!(line.closest_point_from(DVec3::Y, f64::NAN), Err(ShapeError::Parameter { .. })));
     assert!(line.closest_point_from(DVec3::Y, -7.0).unwrap().converged);
-    assert!(matches!(CurveProjector::from_homogeneous(&[]), Err(ShapeError::NoControlPoints)));
-    assert!(matches!(
-        CurveProjector::from_homogeneous(&[DVec4::X]),
-        Err(ShapeError::Weight { place: 0, .. })
-    ));
-    for w in [-1.0, 0.0, f64::NAN, f64::INFINITY, 1e-310] {
-        let refused = CurveProjector::from_homogeneous(&[DVec4::W, DVec4::W * w]);
-        assert!(matches!(refused, Err(ShapeError::Weight { place: 1, .. })), "{w}");
+    for w in [-1.0, 0.0, -0.0] {
+        let mixed = RationalCurve::from_homogeneous([DVec4::W, DVec4::W * w]).unwrap();
+        assert!(matches!(CurveProjector::new(&mixed), Err(ShapeError::Weight { place: 1, .. })), "{w}");
     }
-    assert!(matches!(
-        PatchProjector::from_homogeneous([1, 1], &[DVec4::W; 3]),
-        Err(ShapeError::NetSize { .. })
-    ));
+    // All negative is as good as all positive.
+    let negative = RationalCurve::new(&[DVec3::ZERO, DVec3::X], &[-2.0, -1.0]).unwrap();
+    assert_eq!(CurveProjector::new(&negative).unwrap().closest_point(DVec3::Y).unwrap().distance, 1.0);
     let tiny = CurveProjector::new(&Curve::new(vec![DVec3::ZERO, DVec3::X * 1e-100]).unwrap()).unwrap();
     assert!(matches!(tiny.closest_point(DVec3::X * 1e60), Err(ShapeError::Query { .. })));
+}
+
+/// Parameters are those of the shape's own intervals.
+#[test]
+fn intervals() {
+    let over = |a, b| Interval::new(a, b).unwrap();
+    let line = Curve::new([DVec3::ZERO, DVec3::X]).unwrap().with_interval(over(-3.0, 5.0));
+    let projector = CurveProjector::new(&line).unwrap();
+    let q = DVec3::new(0.25, 1.0, 0.0);
+    assert_eq!(projector.closest_point(q).unwrap().parameters, [-1.0]);
+    assert_eq!(projector.closest_point_from(q, 4.0).unwrap().parameters, [-1.0]);
+    assert_eq!(projector.local_minima(q).unwrap().minima[0].parameters, [-1.0]);
+    let square = [DVec3::ZERO, DVec3::Y, DVec3::X, DVec3::X + DVec3::Y];
+    let square = Patch::new([1, 1], square).unwrap().with_intervals([over(2.0, 4.0), over(-1.0, 0.0)]);
+    let answer = PatchProjector::new(&square).unwrap().closest_point(DVec3::new(0.5, 0.25, 7.0)).unwrap();
+    assert_eq!((answer.parameters, answer.distance), ([3.0, -0.75], 7.0));
 }

@@ -1,8 +1,9 @@
 //! All local minima: against the minima of fine samples, and cases where they are known.
 
 use casteljau_shape::geom::glam::{DVec3, DVec4};
-use casteljau_shape::{Curve, CurveProjector, LocalMinima, PatchProjector};
+use casteljau_shape::{Curve, CurveProjector, LocalMinima};
 
+use crate::brute::{curve, patch};
 use crate::cases::net;
 use crate::random::Random;
 
@@ -25,7 +26,7 @@ fn patches() {
     for shape in 0..120 {
         let degrees = [2 + random.below(2), 2 + random.below(2)];
         let net = net(&mut random, [0, 1, 2, 6][shape % 4], degrees);
-        let projector = PatchProjector::from_homogeneous(degrees, &net.points).unwrap();
+        let projector = patch(degrees, &net.points);
         let q = 1.5 * random.point();
         let found = projector.local_minima(q).unwrap();
         assert_eq!(found, projector.local_minima(q).unwrap());
@@ -74,7 +75,7 @@ fn curves() {
     let (mut minima, mut unresolved) = (0, 0);
     for shape in 0..1000 {
         let net = net(&mut random, [0, 2, 6, 7][shape % 4], [1 + shape % 8, 0]);
-        let projector = CurveProjector::from_homogeneous(&net.points).unwrap();
+        let projector = curve(&net.points);
         let q = 1.5 * random.point();
         let found = projector.local_minima(q).unwrap();
         minima += found.minima.len();
@@ -108,7 +109,7 @@ fn known_minima() {
             DVec4::new((k / 3) as f64 - 1.0, (k % 3) as f64 - 1.0, 0.5 * (height[k / 3] + height[k % 3]), 1.0)
         })
         .collect();
-    let projector = PatchProjector::from_homogeneous([2, 2], &bowl).unwrap();
+    let projector = patch([2, 2], &bowl);
     let inside = projector.local_minima(DVec3::Z * 0.3).unwrap();
     assert_eq!((inside.minima.len(), inside.unresolved.len()), (1, 0), "{inside:?}");
     assert!((inside.minima[0].distance - 0.3).abs() < 1e-15);
