@@ -2,7 +2,7 @@
 
 use casteljau_bernstein::{BernsteinError, MAX_DEGREE};
 use casteljau_geom::GeomError;
-use casteljau_geom::glam::DVec4;
+use casteljau_geom::glam::{DVec3, DVec4};
 use thiserror::Error;
 
 use crate::{ControlPoint, Parameters};
@@ -169,6 +169,19 @@ pub enum ShapeError {
         place: usize,
         /// Its weight.
         value: f64,
+    },
+
+    /// A direction or normal that is zero, not finite or out of range.
+    ///
+    /// ```
+    /// use casteljau_shape::{ShapeError, StraightLine, geom::glam::DVec3};
+    /// let refused = StraightLine::ray(DVec3::X, DVec3::ZERO);
+    /// assert_eq!(refused, Err(ShapeError::Direction { direction: DVec3::ZERO }));
+    /// ```
+    #[error("{direction} is no direction")]
+    Direction {
+        /// The vector given.
+        direction: DVec3,
     },
 
     /// A point in space about which a question was asked is not finite or too far away.

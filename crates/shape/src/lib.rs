@@ -20,6 +20,7 @@ mod control_point;
 mod curve;
 mod curve_operations;
 mod error;
+mod intersect;
 mod joins;
 mod parametric;
 mod patch;
@@ -34,6 +35,7 @@ pub use closest::{CurveProjector, LocalMinima, LocalMinimum, LocalProjection, Pa
 pub use control_point::ControlPoint;
 pub use curve::{BezierCurve, Curve, RationalCurve};
 pub use error::{LARGEST_COORDINATE, ShapeError};
+pub use intersect::{LineIntersection, LinePoint, PlaneIntersection, PlanePoint, StraightLine};
 pub use joins::{Continuity, CurvatureCondition, JoinReport, JoinTolerance, Maximum, SurfaceEdge};
 pub use parametric::{Parameters, ParametricCurve, ParametricSurface, SurfaceDomain};
 pub use patch::{BezierPatch, Patch, RationalPatch};

@@ -231,8 +231,8 @@ fn meet<const D: usize>(a: &Area<D>, b: &Area<D>) -> bool {
 }
 
 /// The boxes around all groups of boxes that touch.
-pub(super) fn clusters<const D: usize>(areas: Vec<Area<D>>) -> Vec<Area<D>> {
-    let mut groups: Vec<Area<D>> = Vec::new();
+pub(crate) fn clusters<const D: usize>(areas: Vec<[[f64; 2]; D]>) -> Vec<[[f64; 2]; D]> {
+    let mut groups: Vec<[[f64; 2]; D]> = Vec::new();
     for mut area in areas {
         // A group that is met may meet others when it has grown.
         while let Some(place) = groups.iter().position(|group| meet(group, &area)) {

@@ -34,6 +34,7 @@ mod tree;
 use casteljau_geom::glam::DVec3;
 
 pub use curve::CurveProjector;
+pub(crate) use minima::clusters;
 pub use minima::{LocalMinima, LocalMinimum};
 pub use patch::PatchProjector;
 

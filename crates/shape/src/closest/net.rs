@@ -1,6 +1,6 @@
 //! Homogeneous nets in coordinates of their own: centred, scaled by a power of two, of moderate weights.
 
-use casteljau_bernstein::TensorNet;
+use casteljau_bernstein::{TensorNet, restrict_tensor};
 use casteljau_geom::UNIT_ROUNDOFF;
 use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
 
@@ -139,39 +139,14 @@ impl LocalNet {
         LocalJet { point, first, second }
     }
 
-    /// The net of the part over a box of `[0, 1]²`, by cutting twice along each axis.
+    /// The net of the part over a box of `[0, 1]ᴰ`; the other axis stays whole.
     pub fn restrict(&self, area: &[[f64; 2]], out: &mut Vec<DVec4>) {
-        out.clear();
-        out.extend_from_slice(&self.points);
-        let stride = self.degrees[1] + 1;
-        for (axis, &[from, to]) in area.iter().enumerate() {
-            // Rows are `stride` apart along u; along v each row is a line of its own.
-            let (lines, count, step) = if axis == 0 {
-                (stride, self.degrees[0] + 1, stride)
-            } else {
-                (self.degrees[0] + 1, stride, 1)
-            };
-            for line in 0..lines {
-                let origin = if axis == 0 { line } else { line * stride };
-                let at = |i: usize| origin + i * step;
-                if to < 1.0 {
-                    // The first part of a cut at `to`: the diagonal of de Casteljau's scheme.
-                    for level in 1..count {
-                        for i in (level..count).rev() {
-                            out[at(i)] = out[at(i - 1)] * (1.0 - to) + out[at(i)] * to;
-                        }
-                    }
-                }
-                if from > 0.0 {
-                    let t = from / to;
-                    for level in 1..count {
-                        for i in 0..count - level {
-                            out[at(i)] = out[at(i)] * (1.0 - t) + out[at(i + 1)] * t;
-                        }
-                    }
-                }
-            }
-        }
+        let mut whole = [[0.0, 1.0]; 2];
+        whole[..area.len()].copy_from_slice(area);
+        out.resize(self.points.len(), DVec4::ZERO);
+        // The lengths agree by construction.
+        let done = restrict_tensor(&self.points, self.degrees, whole, out);
+        debug_assert!(done.is_ok());
     }
 }
 
