@@ -2,7 +2,7 @@
 
 use casteljau_bernstein::{BernsteinError, MAX_DEGREE};
 use casteljau_geom::GeomError;
-use casteljau_geom::glam::DVec4;
+use casteljau_geom::glam::{DVec3, DVec4};
 use thiserror::Error;
 
 use crate::{ControlPoint, Parameters};
@@ -153,6 +153,54 @@ pub enum ShapeError {
         relative: f64,
         /// The number of pieces that were looked at.
         pieces: usize,
+    },
+
+    /// A weight that is not positive, where all must be (or all negative).
+    ///
+    /// ```
+    /// use casteljau_shape::{CurveProjector, RationalCurve, ShapeError, geom::glam::DVec3};
+    /// let curve = RationalCurve::new(&[DVec3::ZERO, DVec3::X], &[1.0, -1.0])?; // with a pole
+    /// assert_eq!(CurveProjector::new(&curve).err(), Some(ShapeError::Weight { place: 1, value: -1.0 }));
+    /// # Ok::<(), ShapeError>(())
+    /// ```
+    #[error("control point {place} has the weight {value}, which is not positive")]
+    Weight {
+        /// Place of the control point in memory, from 0.
+        place: usize,
+        /// Its weight.
+        value: f64,
+    },
+
+    /// A direction or normal that is zero, not finite or out of range.
+    ///
+    /// ```
+    /// use casteljau_shape::{ShapeError, StraightLine, geom::glam::DVec3};
+    /// let refused = StraightLine::ray(DVec3::X, DVec3::ZERO);
+    /// assert_eq!(refused, Err(ShapeError::Direction { direction: DVec3::ZERO }));
+    /// ```
+    #[error("{direction} is no direction")]
+    Direction {
+        /// The vector given.
+        direction: DVec3,
+    },
+
+    /// A point in space about which a question was asked is not finite or too far away.
+    ///
+    /// ```
+    /// use casteljau_shape::{Curve, CurveProjector, ShapeError, geom::glam::DVec3};
+    /// let line = CurveProjector::new(&Curve::new(vec![DVec3::ZERO, DVec3::X])?)?;
+    /// let refused = line.closest_point(DVec3::new(0.0, f64::INFINITY, 0.0));
+    /// assert_eq!(refused, Err(ShapeError::Query { axis: 1, value: f64::INFINITY }));
+    /// # Ok::<(), ShapeError>(())
+    /// ```
+    #[error(
+        "the query's coordinate {axis}, {value}, is no number below {LARGEST_COORDINATE:e}, by itself or measured by the shape's size"
+    )]
+    Query {
+        /// 0, 1, 2 for x, y, z.
+        axis: usize,
+        /// The coordinate.
+        value: f64,
     },
 
     /// Another number of weights than of control points.

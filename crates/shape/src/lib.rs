@@ -36,12 +36,14 @@ pub use casteljau_geom as geom;
 
 mod arc_length;
 mod area;
+mod closest;
 mod conic;
 mod control_point;
 mod conversion;
 mod curve;
 mod curve_operations;
 mod error;
+mod intersect;
 mod joins;
 mod parametric;
 mod patch;
@@ -54,9 +56,11 @@ mod tight_box;
 mod triangle;
 mod triangle_operations;
 
+pub use closest::{CurveProjector, LocalMinima, LocalMinimum, LocalProjection, PatchProjector, Projection};
 pub use control_point::ControlPoint;
 pub use curve::{BezierCurve, Curve, RationalCurve};
 pub use error::{LARGEST_COORDINATE, ShapeError};
+pub use intersect::{LineIntersection, LinePoint, PlaneIntersection, PlanePoint, StraightLine};
 pub use joins::{Continuity, CurvatureCondition, JoinReport, JoinTolerance, Maximum, SurfaceEdge};
 pub use parametric::{Parameters, ParametricCurve, ParametricSurface, SurfaceDomain};
 pub use patch::{BezierPatch, Patch, RationalPatch};
