@@ -244,7 +244,7 @@ pub trait ParametricSurface {
     ///
     /// The domain is cut into cells, worst first, until the changes from Gauss's rule of 16 × 16 points on a cell to
     /// the same rule on its four quarters, and a bound on the rounding, add up to no more than was asked for. That is an estimate, on the safe side where the surface is smooth over the cells; it is no certificate,
-    /// as that of arc lengths is. Creases, where the normal turns over, cost cells. Cost: about 0.1 ms for a regular
+    /// as that of arc lengths is. Creases, where the normal turns over, cost cells. Cost grows with the
     /// bicubic patch at 1e-10.
     ///
     /// ```
