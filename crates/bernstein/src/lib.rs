@@ -22,6 +22,7 @@
 pub use glam;
 
 mod basis;
+mod batch;
 mod binomial;
 mod elevation;
 mod error;
@@ -31,6 +32,7 @@ mod subdivision;
 mod tensor;
 
 pub use basis::{basis, basis_barycentric, basis_derivatives};
+pub use batch::{BatchPoint, CurveBatch, GridBatch, PatchBatch};
 pub use binomial::{MAX_DEGREE, binomial};
 pub use elevation::elevate;
 pub use error::BernsteinError;
