@@ -11,6 +11,8 @@
 //! **Range.** Degrees up to [`MAX_DEGREE`]. A longer slice gives NaN from the kernels that multiply by binomial
 //! coefficients, because these overflow; refuse such degrees where a shape is constructed.
 //!
+//! **Batches.** Thousands of parameters or nets at once go through [`batch`], with vector instructions and on all cores.
+//!
 //! ```
 //! use casteljau_bernstein::{basis, value};
 //! let mut b = [0.0; 4];
@@ -22,7 +24,7 @@
 pub use glam;
 
 mod basis;
-mod batch;
+pub mod batch;
 mod binomial;
 mod elevation;
 mod error;
@@ -32,7 +34,7 @@ mod subdivision;
 mod tensor;
 
 pub use basis::{basis, basis_barycentric, basis_derivatives};
-pub use batch::{BatchPoint, CurveBatch, GridBatch, PatchBatch};
+pub use batch::{BatchPoint, CurveBatch, GridBatch, PatchBatch, elevate_many, subdivide_many, to_power_many};
 pub use binomial::{MAX_DEGREE, binomial};
 pub use elevation::elevate;
 pub use error::BernsteinError;

@@ -3,6 +3,7 @@
 // As in `simd.rs`: plain loops over registers.
 #![allow(clippy::needless_range_loop)]
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use pulp::bytemuck::{cast_slice, cast_slice_mut};
@@ -87,12 +88,7 @@ impl GridBatch {
         const { assert!(K == 1 || K == 3 || K == 6, "values; first; second derivatives") };
         self.check(nets.len(), out.each_ref().map(|out| out.len()))?;
         let mut out = out.map(cast_slice_mut::<P, f64>);
-        match &mut out[..] {
-            [a] => self.run::<1, PLAIN>(P::DIMENSION, cast_slice(nets), [a]),
-            [a, b, c] => self.run::<3, PLAIN>(P::DIMENSION, cast_slice(nets), [a, b, c]),
-            [a, b, c, d, e, f] => self.run::<6, PLAIN>(P::DIMENSION, cast_slice(nets), [a, b, c, d, e, f]),
-            _ => Ok(()),
-        }
+        self.plain(P::DIMENSION, cast_slice(nets), &mut out)
     }
 
     /// As [`evaluate`](Self::evaluate), for rational nets `(w·x, w·y, w·z, w)`: points and derivatives in space, by
@@ -112,12 +108,7 @@ impl GridBatch {
         const { assert!(K == 1 || K == 3 || K == 6, "values; first; second derivatives") };
         self.check(nets.len(), out.each_ref().map(|out| out.len()))?;
         let mut out = out.map(cast_slice_mut::<DVec3, f64>);
-        match &mut out[..] {
-            [a] => self.run::<1, RATIONAL>(4, cast_slice(nets), [a]),
-            [a, b, c] => self.run::<3, RATIONAL>(4, cast_slice(nets), [a, b, c]),
-            [a, b, c, d, e, f] => self.run::<6, RATIONAL>(4, cast_slice(nets), [a, b, c, d, e, f]),
-            _ => Ok(()),
-        }
+        self.rational(cast_slice(nets), &mut out)
     }
 
     /// Points and unit normals `∂u × ∂v / |∂u × ∂v|`.
@@ -135,7 +126,56 @@ impl GridBatch {
         normals: &mut [DVec3],
     ) -> Result<(), BernsteinError> {
         self.check(nets.len(), [points.len(), normals.len(), normals.len()])?;
-        self.run::<2, NORMALS>(3, cast_slice(nets), [cast_slice_mut(points), cast_slice_mut(normals)])
+        let out = [cast_slice_mut(points), cast_slice_mut(normals)];
+        self.run(3, 3, cast_slice(nets), out, |rows| {
+            if self.v.degree == 3 {
+                dispatch_in::<_, 3>(rows.by::<NORMALS, 3>());
+            } else {
+                dispatch_in::<_, 3>(rows.by::<NORMALS, ANY>());
+            }
+        })
+    }
+
+    /// Not generic, so that the kernels are compiled with this crate and once.
+    fn plain(&self, dimension: usize, nets: &[f64], out: &mut [&mut [f64]]) -> Result<(), BernsteinError> {
+        match out {
+            [a] => self.plain_in(dimension, nets, [a]),
+            [a, b, c] => self.plain_in(dimension, nets, [a, b, c]),
+            [a, b, c, d, e, f] => self.run(dimension, dimension, nets, [a, b, c, d, e, f], |rows| {
+                dispatch(dimension, rows.by::<PLAIN, ANY>());
+            }),
+            _ => Ok(()),
+        }
+    }
+
+    /// Cubic patches in space have kernels of their own, with unrolled loops.
+    fn plain_in<const K: usize>(
+        &self,
+        dimension: usize,
+        nets: &[f64],
+        out: [&mut [f64]; K],
+    ) -> Result<(), BernsteinError> {
+        let unrolled = dimension == 3 && self.v.degree == 3;
+        self.run(dimension, dimension, nets, out, |rows| {
+            if unrolled {
+                dispatch_in::<_, 3>(rows.by::<PLAIN, 3>());
+            } else {
+                dispatch(dimension, rows.by::<PLAIN, ANY>());
+            }
+        })
+    }
+
+    fn rational(&self, nets: &[f64], out: &mut [&mut [f64]]) -> Result<(), BernsteinError> {
+        match out {
+            [a] => self.rational_in(nets, [a]),
+            [a, b, c] => self.rational_in(nets, [a, b, c]),
+            [a, b, c, d, e, f] => self.rational_in(nets, [a, b, c, d, e, f]),
+            _ => Ok(()),
+        }
+    }
+
+    fn rational_in<const K: usize>(&self, nets: &[f64], out: [&mut [f64]; K]) -> Result<(), BernsteinError> {
+        self.run(4, 3, nets, out, |rows| dispatch_in::<_, 4>(rows.by::<RATIONAL, ANY>()))
     }
 
     /// Checks the number of control points, and the buffers of an evaluation of `K` kinds of derivatives.
@@ -153,12 +193,14 @@ impl GridBatch {
         out.iter().try_for_each(|&given| check_length("out", needed, given))
     }
 
-    /// Cuts the rows of all nets into chunks.
-    fn run<const K: usize, const KIND: u8>(
+    /// Cuts the rows of all nets into chunks, for results of `width` numbers a point.
+    fn run<const K: usize>(
         &self,
         dimension: usize,
+        width: usize,
         nets: &[f64],
         out: [&mut [f64]; K],
+        kernel: impl Fn(Chunk<'_, K>) + Send + Sync,
     ) -> Result<(), BernsteinError> {
         let rows = nets.len() / ((self.u.degree + 1) * (self.v.degree + 1) * dimension) * self.u.count;
         if rows == 0 || self.v.count == 0 {
@@ -169,17 +211,10 @@ impl GridBatch {
         if height > self.u.count {
             height = height.next_multiple_of(self.u.count);
         }
-        let width = if KIND == PLAIN { dimension } else { 3 };
         let out = out.map(|out| out.chunks_mut(height * self.v.count * width));
         let pole = AtomicUsize::new(usize::MAX);
         each_chunk((0..rows).step_by(height), out, |first, out| {
-            let rows = first..rows.min(first + height);
-            let job = Rows::<K, KIND> { grid: self, nets, rows, out, pole: &pole };
-            match KIND {
-                RATIONAL => dispatch_in::<_, 4>(job),
-                NORMALS => dispatch_in::<_, 3>(job),
-                _ => dispatch(dimension, job),
-            }
+            kernel(Chunk { grid: self, nets, rows: first..rows.min(first + height), out, pole: &pole });
         });
         refuse_pole(pole.into_inner())
     }
@@ -190,22 +225,34 @@ const PLAIN: u8 = 0;
 const RATIONAL: u8 = 1;
 const NORMALS: u8 = 2;
 
+/// Degree in v of a kernel that takes every degree; those with a number have their loops unrolled.
+const ANY: usize = usize::MAX;
+
 /// Some of the rows of all nets.
-struct Rows<'a, const K: usize, const KIND: u8> {
+struct Chunk<'a, const K: usize> {
     grid: &'a GridBatch,
     nets: &'a [f64],
-    rows: std::ops::Range<usize>,
+    rows: Range<usize>,
     out: [&'a mut [f64]; K],
     /// The first place of a pole.
     pole: &'a AtomicUsize,
 }
 
-impl<const K: usize, const KIND: u8> Job for Rows<'_, K, KIND> {
+impl<'a, const K: usize> Chunk<'a, K> {
+    /// The job to be done with these rows.
+    fn by<const KIND: u8, const N: usize>(self) -> Rows<'a, K, KIND, N> {
+        Rows(self)
+    }
+}
+
+struct Rows<'a, const K: usize, const KIND: u8, const N: usize>(Chunk<'a, K>);
+
+impl<const K: usize, const KIND: u8, const N: usize> Job for Rows<'_, K, KIND, N> {
     type Output = ();
 
     #[inline(always)]
     fn run<S: Lanes, const D: usize>(self, simd: S) {
-        let Self { grid: GridBatch { u, v }, nets, rows, mut out, pole } = self;
+        let Chunk { grid: GridBatch { u, v }, nets, rows, mut out, pole } = self.0;
         let size = (u.degree + 1) * (v.degree + 1) * D;
         let mut scratch = Nets::new([u.degree, v.degree], D, if KIND == NORMALS { 3 } else { K });
         let mut of_net = usize::MAX;
@@ -230,16 +277,16 @@ impl<const K: usize, const KIND: u8> Job for Rows<'_, K, KIND> {
                 let place = number * v.count + column;
                 match KIND {
                     NORMALS => {
-                        let point: [S::f64s; 3] = combine(simd, &scratch, v, 0, column);
-                        let du = combine(simd, &scratch, v, 1, column);
-                        let dv = combine(simd, &scratch, v, 2, column);
+                        let point: [S::f64s; 3] = combine::<S, N, _>(simd, &scratch, v, 0, column);
+                        let du = combine::<S, N, _>(simd, &scratch, v, 1, column);
+                        let dv = combine::<S, N, _>(simd, &scratch, v, 2, column);
                         store(simd, out[0], place, point);
                         store(simd, out[1], place, unit_normal(simd, du, dv));
                     }
                     RATIONAL => {
                         let mut jet = [[simd.splat_f64s(0.0); 4]; K];
                         for k in 0..K {
-                            jet[k] = combine(simd, &scratch, v, k, column);
+                            jet[k] = combine::<S, N, _>(simd, &scratch, v, k, column);
                         }
                         let bound = simd.splat_f64s(share * largest * u.spread()[row % u.count]);
                         let least = simd.mul_f64s(bound, simd.load(v.spread(), column));
@@ -259,7 +306,7 @@ impl<const K: usize, const KIND: u8> Job for Rows<'_, K, KIND> {
                     }
                     _ => {
                         for k in 0..K {
-                            let points: [S::f64s; D] = combine(simd, &scratch, v, k, column);
+                            let points: [S::f64s; D] = combine::<S, N, _>(simd, &scratch, v, k, column);
                             store(simd, out[k], place, points);
                         }
                     }
@@ -274,20 +321,22 @@ impl<const K: usize, const KIND: u8> Job for Rows<'_, K, KIND> {
 ///
 /// Lanes beyond the last column give 0. They are stored where there is room, and overwritten by the next row.
 #[inline(always)]
-fn combine<S: Lanes, const D: usize>(
+fn combine<S: Lanes, const N: usize, const D: usize>(
     simd: S,
     nets: &Nets,
     table: &Table,
     place: usize,
     first: usize,
 ) -> [S::f64s; D] {
+    let order = ORDERS[place][1];
+    let width = if N == ANY { table.width(order) } else { N + 1 - order };
+    let (basis, curve) = (&table.block(order, first)[..width], &nets.curve::<D>(place)[..width]);
+    let lane = first % WIDTH;
     let mut sum = [simd.splat_f64s(0.0); D];
-    let curve = nets.curve::<D>(place);
-    let lanes = first % WIDTH;
-    for (basis, point) in table.block(ORDERS[place][1], first).iter().zip(curve) {
-        let basis = simd.load(basis, lanes);
+    for j in 0..width {
+        let basis = simd.load(&basis[j], lane);
         for c in 0..D {
-            sum[c] = simd.mul_add_f64s(basis, simd.splat_f64s(point[c]), sum[c]);
+            sum[c] = simd.mul_add_f64s(basis, simd.splat_f64s(curve[j][c]), sum[c]);
         }
     }
     sum

@@ -35,7 +35,7 @@ impl Nets {
     }
 
     /// Takes another net, and makes its differences.
-    #[inline(always)]
+    #[inline(never)]
     pub(super) fn set(&mut self, net: &[f64]) {
         let [m, n] = self.degrees;
         self.of_order[0][..net.len()].copy_from_slice(net);

@@ -13,17 +13,15 @@ use pulp::Scalar;
 use pulp::bytemuck::{cast_slice, cast_slice_mut};
 
 use super::blocks::store;
-use super::horner::{ONE_SIDED, select, splat};
+use super::horner::ONE_SIDED;
 use super::nets::{Nets, ORDERS};
 use super::parallel::{CHUNK, each_chunk};
+use super::patch_kernel::{At, BASIS, BICUBIC, MAX_BASIS, QUOTIENTS, load_pairs};
 use super::quotient::{lane, largest_weight, refuse_pole, scale, settle, surface, uncertainty};
-use super::simd::{Job, Lanes, WIDTH, dispatch, dispatch_in};
+use super::simd::{Job, Lanes, dispatch, dispatch_in};
 use super::{BatchPoint, check_length};
 use crate::glam::{DVec2, DVec3, DVec4};
 use crate::{BernsteinError, MAX_DEGREE, TensorNet, basis, binomial};
-
-/// Degrees up to this one have their basis in registers on the stack; the number of control points a side is one more.
-const MAX_BASIS: usize = 32;
 
 /// A tensor-product patch, `p(u,v) = Σᵢ Σⱼ Bᵢᵐ(u) Bⱼⁿ(v) Pᵢⱼ`, made ready to be evaluated at many scattered parameters.
 ///
@@ -104,13 +102,7 @@ impl<P: BatchPoint> PatchBatch<P> {
             });
             return Ok(());
         }
-        let view = self.view(cast_slice(parameters));
-        match &mut out[..] {
-            [a] => view.evaluate::<1, false>(P::DIMENSION, [a]),
-            [a, b, c] => view.evaluate::<3, false>(P::DIMENSION, [a, b, c]),
-            [a, b, c, d, e, f] => view.evaluate::<6, false>(P::DIMENSION, [a, b, c, d, e, f]),
-            _ => Ok(()),
-        }
+        self.view(cast_slice(parameters)).plain(P::DIMENSION, &mut out)
     }
 
     /// The first `kinds` partial derivatives at each parameter, given to `take` with its place.
@@ -170,39 +162,78 @@ impl PatchBatch<DVec4> {
             });
             return refuse_pole(pole);
         }
-        match &mut out[..] {
-            [a] => view.evaluate::<1, true>(4, [a]),
-            [a, b, c] => view.evaluate::<3, true>(4, [a, b, c]),
-            [a, b, c, d, e, f] => view.evaluate::<6, true>(4, [a, b, c, d, e, f]),
-            _ => Ok(()),
-        }
+        view.rational(&mut out)
     }
 }
 
 /// A patch and parameters as plain numbers, so that the kernels are compiled with this crate and once.
 #[derive(Clone, Copy)]
-struct View<'a> {
+pub(super) struct View<'a> {
     net: &'a [f64],
-    degrees: [usize; 2],
-    plain: &'a [Vec<f64>],
-    scaled: &'a [Vec<f64>],
+    pub(super) degrees: [usize; 2],
+    pub(super) plain: &'a [Vec<f64>],
+    pub(super) scaled: &'a [Vec<f64>],
     /// u and v of each place.
     parameters: &'a [f64],
 }
 
 impl View<'_> {
-    fn evaluate<const K: usize, const RATIONAL: bool>(
+    fn plain(&self, dimension: usize, out: &mut [&mut [f64]]) -> Result<(), BernsteinError> {
+        match out {
+            [a] => self.plain_in(dimension, [a]),
+            [a, b, c] => self.plain_in(dimension, [a, b, c]),
+            [a, b, c, d, e, f] => self.plain_in(dimension, [a, b, c, d, e, f]),
+            _ => Ok(()),
+        }
+    }
+
+    fn rational(&self, out: &mut [&mut [f64]]) -> Result<(), BernsteinError> {
+        match out {
+            [a] => self.rational_in([a]),
+            [a, b, c] => self.rational_in([a, b, c]),
+            [a, b, c, d, e, f] => self.rational_in([a, b, c, d, e, f]),
+            _ => Ok(()),
+        }
+    }
+
+    fn plain_in<const K: usize>(&self, dimension: usize, out: [&mut [f64]; K]) -> Result<(), BernsteinError> {
+        // Bicubic patches in space have kernels of their own, with unrolled loops.
+        let unrolled = dimension == 3 && self.degrees == [3, 3];
+        let by_quotients = self.degrees[0] + self.degrees[1] <= ONE_SIDED;
+        self.run(dimension, out, |chunk| {
+            if unrolled {
+                dispatch_in::<_, 3>(chunk.by::<false, BICUBIC>());
+            } else if by_quotients {
+                dispatch(dimension, chunk.by::<false, QUOTIENTS>());
+            } else {
+                dispatch(dimension, chunk.by::<false, BASIS>());
+            }
+        })
+    }
+
+    fn rational_in<const K: usize>(&self, out: [&mut [f64]; K]) -> Result<(), BernsteinError> {
+        let by_quotients = self.degrees[0] + self.degrees[1] <= ONE_SIDED;
+        self.run(3, out, |chunk| {
+            if by_quotients {
+                dispatch_in::<_, 4>(chunk.by::<true, QUOTIENTS>());
+            } else {
+                dispatch_in::<_, 4>(chunk.by::<true, BASIS>());
+            }
+        })
+    }
+
+    /// Cuts the parameters into chunks, for results of `width` numbers a point.
+    fn run<const K: usize>(
         &self,
-        dimension: usize,
+        width: usize,
         out: [&mut [f64]; K],
+        kernel: impl Fn(Chunk<'_, K>) + Send + Sync,
     ) -> Result<(), BernsteinError> {
-        let width = if RATIONAL { 3 } else { dimension };
         let out = out.map(|out| out.chunks_mut(CHUNK * width));
         let pole = AtomicUsize::new(usize::MAX);
         each_chunk(self.parameters.chunks(2 * CHUNK).enumerate(), out, |(number, parameters), out| {
             let patch = View { parameters, ..*self };
-            let job = Scattered::<K, RATIONAL> { patch, out, first: number * CHUNK, pole: &pole };
-            if RATIONAL { dispatch_in::<_, 4>(job) } else { dispatch(dimension, job) }
+            kernel(Chunk { patch, out, first: number * CHUNK, pole: &pole });
         });
         refuse_pole(pole.into_inner())
     }
@@ -218,7 +249,8 @@ impl View<'_> {
     }
 }
 
-struct Scattered<'a, const K: usize, const RATIONAL: bool> {
+/// Some of the parameters.
+struct Chunk<'a, const K: usize> {
     patch: View<'a>,
     out: [&'a mut [f64]; K],
     /// The place of the first parameter in the whole batch.
@@ -227,12 +259,21 @@ struct Scattered<'a, const K: usize, const RATIONAL: bool> {
     pole: &'a AtomicUsize,
 }
 
-impl<const K: usize, const RATIONAL: bool> Job for Scattered<'_, K, RATIONAL> {
+impl<'a, const K: usize> Chunk<'a, K> {
+    /// The job to be done with these parameters.
+    fn by<const RATIONAL: bool, const WAY: u8>(self) -> Scattered<'a, K, RATIONAL, WAY> {
+        Scattered(self)
+    }
+}
+
+struct Scattered<'a, const K: usize, const RATIONAL: bool, const WAY: u8>(Chunk<'a, K>);
+
+impl<const K: usize, const RATIONAL: bool, const WAY: u8> Job for Scattered<'_, K, RATIONAL, WAY> {
     type Output = ();
 
     #[inline(always)]
     fn run<S: Lanes, const D: usize>(self, simd: S) {
-        let Self { patch, mut out, first, pole } = self;
+        let Chunk { patch, mut out, first, pole } = self.0;
         let [m, n] = patch.degrees;
         let weight = if RATIONAL { uncertainty(m + n) * largest_weight(patch.net) } else { 0.0 };
         let count = patch.parameters.len() / 2;
@@ -241,8 +282,22 @@ impl<const K: usize, const RATIONAL: bool> Job for Scattered<'_, K, RATIONAL> {
             let [u, v] = load_pairs(simd, patch.parameters, place);
             let at = At::new(simd, u, v);
             let mut jet = [[simd.splat_f64s(0.0); D]; K];
-            for k in 0..K {
-                jet[k] = at.partial(&patch, k);
+            if WAY == BASIS {
+                for k in 0..K {
+                    jet[k] = at.by_basis(&patch, k);
+                }
+            } else {
+                jet[0] = at.partial::<D, WAY, 0, 0>(&patch);
+                // Written out: the compiler must see the orders to keep everything in registers.
+                if K >= 3 {
+                    jet[1] = at.partial::<D, WAY, 1, 0>(&patch);
+                    jet[2] = at.partial::<D, WAY, 0, 1>(&patch);
+                }
+                if K >= 6 {
+                    jet[3] = at.partial::<D, WAY, 2, 0>(&patch);
+                    jet[4] = at.partial::<D, WAY, 1, 1>(&patch);
+                    jet[5] = at.partial::<D, WAY, 0, 2>(&patch);
+                }
             }
             if RATIONAL {
                 let mut homogeneous = [[simd.splat_f64s(0.0); 4]; K];
@@ -275,129 +330,4 @@ impl<const K: usize, const RATIONAL: bool> Job for Scattered<'_, K, RATIONAL> {
             place += S::F64_LANES;
         }
     }
-}
-
-/// The parameters of as many places as there are lanes; lanes beyond the last repeat it.
-#[inline(always)]
-fn load_pairs<S: Lanes>(simd: S, parameters: &[f64], place: usize) -> [S::f64s; 2] {
-    let pairs = match parameters.get(2 * place..2 * (place + S::F64_LANES)) {
-        Some(all) => [simd.load(all, 0), simd.load(all, S::F64_LANES)],
-        None => {
-            let mut padded = [0.0; 2 * WIDTH];
-            let rest = parameters.get(2 * place..).unwrap_or_default();
-            padded[..rest.len()].copy_from_slice(rest);
-            padded[rest.len()..]
-                .as_chunks_mut()
-                .0
-                .fill([parameters[parameters.len() - 2], parameters[parameters.len() - 1]]);
-            [simd.load(&padded, 0), simd.load(&padded, S::F64_LANES)]
-        }
-    };
-    simd.deinterleave(pairs)
-}
-
-/// A register of parameters (u, v).
-struct At<S: Lanes> {
-    simd: S,
-    u: S::f64s,
-    v: S::f64s,
-    /// 1 − u and 1 − v.
-    su: S::f64s,
-    sv: S::f64s,
-    /// u/(1−u) and v/(1−v).
-    x: S::f64s,
-    y: S::f64s,
-    /// The lanes where one of the quotients does not exist.
-    ends: S::m64s,
-    any_end: bool,
-}
-
-impl<S: Lanes> At<S> {
-    #[inline(always)]
-    fn new(simd: S, u: S::f64s, v: S::f64s) -> Self {
-        let (one, zero) = (simd.splat_f64s(1.0), simd.splat_f64s(0.0));
-        let (su, sv) = (simd.sub_f64s(one, u), simd.sub_f64s(one, v));
-        let ends = simd.or_m64s(simd.equal_f64s(su, zero), simd.equal_f64s(sv, zero));
-        let (x, y) = (simd.div_f64s(u, su), simd.div_f64s(v, sv));
-        Self { simd, u, v, su, sv, x, y, ends, any_end: simd.any(ends) }
-    }
-
-    /// The partial derivative with the place k in the list of orders.
-    #[inline(always)]
-    fn partial<const D: usize>(&self, patch: &View<'_>, k: usize) -> [S::f64s; D] {
-        let [m, n] = patch.degrees;
-        let [a, b] = ORDERS[k];
-        if a > m || b > n {
-            return [self.simd.splat_f64s(0.0); D];
-        }
-        if m + n > ONE_SIDED {
-            return self.by_basis(patch.plain[k].as_chunks().0, m - a, n - b);
-        }
-        let mut sum = self.by_quotients(patch.scaled[k].as_chunks().0, m - a, n - b);
-        if self.any_end {
-            let other = self.by_basis(patch.plain[k].as_chunks().0, m - a, n - b);
-            sum = select(self.simd, self.ends, other, sum);
-        }
-        sum
-    }
-
-    /// `(1−u)ᵐ (1−v)ⁿ Σᵢ Σⱼ qᵢⱼ xⁱ yʲ`.
-    #[inline(always)]
-    fn by_quotients<const D: usize>(&self, q: &[[f64; D]], m: usize, n: usize) -> [S::f64s; D] {
-        let simd = self.simd;
-        let mut sum = [simd.splat_f64s(0.0); D];
-        for (i, q) in q.chunks_exact(n + 1).take(m + 1).rev().enumerate() {
-            let mut row = splat(simd, &q[n]);
-            for q in q[..n].iter().rev() {
-                for c in 0..D {
-                    row[c] = simd.mul_add_f64s(row[c], self.y, simd.splat_f64s(q[c]));
-                }
-            }
-            for c in 0..D {
-                sum[c] = if i == 0 { row[c] } else { simd.mul_add_f64s(sum[c], self.x, row[c]) };
-            }
-        }
-        let power = simd.mul_f64s(simd.power(self.su, m), simd.power(self.sv, n));
-        for c in 0..D {
-            sum[c] = simd.mul_f64s(sum[c], power);
-        }
-        sum
-    }
-
-    /// `Σᵢ Bᵢᵐ(u) Σⱼ Bⱼⁿ(v) Pᵢⱼ`, m and n less than [`MAX_BASIS`].
-    #[inline(always)]
-    fn by_basis<const D: usize>(&self, net: &[[f64; D]], m: usize, n: usize) -> [S::f64s; D] {
-        let simd = self.simd;
-        let (in_u, in_v) = (basis_lanes(simd, self.su, self.u, m), basis_lanes(simd, self.sv, self.v, n));
-        let mut sum = [simd.splat_f64s(0.0); D];
-        for (row, bu) in net.chunks_exact(n + 1).take(m + 1).zip(&in_u) {
-            let mut inner = [simd.splat_f64s(0.0); D];
-            for (point, &bv) in row.iter().zip(&in_v) {
-                for c in 0..D {
-                    inner[c] = simd.mul_add_f64s(bv, simd.splat_f64s(point[c]), inner[c]);
-                }
-            }
-            for c in 0..D {
-                sum[c] = simd.mul_add_f64s(*bu, inner[c], sum[c]);
-            }
-        }
-        sum
-    }
-}
-
-/// `C(n,i) sⁿ⁻ⁱ tⁱ`, n less than [`MAX_BASIS`].
-#[inline(always)]
-fn basis_lanes<S: Lanes>(simd: S, s: S::f64s, t: S::f64s, n: usize) -> [S::f64s; MAX_BASIS] {
-    let mut row = [simd.splat_f64s(1.0); MAX_BASIS];
-    let mut power = t;
-    for (i, b) in row[..=n].iter_mut().enumerate().skip(1) {
-        *b = simd.mul_f64s(power, simd.splat_f64s(binomial(n, i)));
-        power = simd.mul_f64s(power, t);
-    }
-    power = s;
-    for b in row[..n].iter_mut().rev() {
-        *b = simd.mul_f64s(*b, power);
-        power = simd.mul_f64s(power, s);
-    }
-    row
 }

@@ -48,6 +48,15 @@ impl Path {
         vector.into_iter().flatten().chain([Self::Portable])
     }
 
+    /// The fastest path, or the one that a test forces upon its thread.
+    fn chosen() -> Self {
+        #[cfg(test)]
+        if let Some(path) = FORCED.get() {
+            return path;
+        }
+        Self::available().next().unwrap_or(Self::Portable)
+    }
+
     /// Runs `job` for points of `dimension` numbers; a path that the processor lacks falls back to the portable one.
     pub(super) fn run<J: Job>(self, dimension: usize, job: J) -> J::Output {
         match dimension {
@@ -77,14 +86,20 @@ impl Path {
     }
 }
 
+#[cfg(test)]
+thread_local! {
+    /// The path that batches of this thread take.
+    pub(super) static FORCED: std::cell::Cell<Option<Path>> = const { std::cell::Cell::new(None) };
+}
+
 /// Runs `job` on the widest registers that the processor has.
 pub(super) fn dispatch<J: Job>(dimension: usize, job: J) -> J::Output {
-    Path::available().next().unwrap_or(Path::Portable).run(dimension, job)
+    Path::chosen().run(dimension, job)
 }
 
 /// As [`dispatch`], for one dimension only.
 pub(super) fn dispatch_in<J: Job, const D: usize>(job: J) -> J::Output {
-    Path::available().next().unwrap_or(Path::Portable).run_in::<J, D>(job)
+    Path::chosen().run_in::<J, D>(job)
 }
 
 struct Call<S, J, const D: usize> {
