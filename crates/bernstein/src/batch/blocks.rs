@@ -5,10 +5,11 @@
 
 use super::simd::{Lanes, WIDTH};
 
-/// Calls `kernel` with the places 0, L, 2L, … below `count`, L being the number of lanes, and stores what it makes of
-/// each: as many points for each of the buffers `out` as there are places left.
+/// Calls `kernel` with the places 0, L, 2L, … below `count`, L being the number of lanes, and stores what it
+/// makes of each: as many points for each of the buffers `out` as there are places left.
 ///
-/// `kernel` must be a closure marked `#[inline(always)]`, so that it gets the vector instructions of its caller.
+/// `kernel` must be a closure marked `#[inline(always)]`, so that it gets the vector instructions of its
+/// caller.
 #[inline(always)]
 pub(super) fn each<S: Lanes, const D: usize, const K: usize>(
     simd: S,

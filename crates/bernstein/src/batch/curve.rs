@@ -91,15 +91,15 @@ impl<P: BatchPoint> CurveBatch<P> {
 }
 
 impl CurveBatch<DVec4> {
-    /// As [`evaluate`](Self::evaluate), for a rational curve with the control points `(w·x, w·y, w·z, w)`: points and
-    /// derivatives in space, by the quotient rule.
+    /// As [`evaluate`](Self::evaluate), for a rational curve with the control points `(w·x, w·y, w·z, w)`:
+    /// points and derivatives in space, by the quotient rule.
     ///
     /// Error: that of numerator and denominator, magnified by 1/|w| once an order.
     ///
     /// # Errors
-    /// [`BernsteinError::BufferLength`], and [`BernsteinError::Pole`] with the first place where the denominator
-    /// vanishes within its rounding error, or the quotient is out of range; the buffers hold 0 at such places, and the
-    /// answers everywhere else.
+    /// [`BernsteinError::BufferLength`], and [`BernsteinError::Pole`] with the first place where the
+    /// denominator vanishes within its rounding error, or the quotient is out of range; the buffers hold 0 at
+    /// such places, and the answers everywhere else.
     pub fn evaluate_rational<const K: usize>(
         &self,
         parameters: &[f64],

@@ -19,10 +19,12 @@ use super::{BatchPoint, check_length};
 use crate::glam::{DVec3, DVec4};
 use crate::{BernsteinError, MAX_DEGREE};
 
-/// A grid of parameters (uᵢ, vⱼ) for nets of fixed degrees: the basis is evaluated once for each row and column.
+/// A grid of parameters (uᵢ, vⱼ) for nets of fixed degrees: the basis is evaluated once for each row and
+/// column.
 ///
-/// A grid serves any number of nets; one call takes many, for small patches by the thousand. Results stand row
-/// by row: the point at (uᵢ, vⱼ) of a net at place `i·N + j`, N being the number of the vⱼ, net after net.
+/// A grid serves any number of nets; one call takes many, for small patches by the thousand. Results stand
+/// row by row: the point at (uᵢ, vⱼ) of a net at place `i·N + j`, N being the number of the vⱼ, net after
+/// net.
 ///
 /// ```
 /// use casteljau_bernstein::GridBatch;
@@ -40,8 +42,8 @@ pub struct GridBatch {
 }
 
 impl GridBatch {
-    /// Prepares a grid for nets of the degrees m (with u) and n (with v) and for derivatives up to `order`, at
-    /// most 2.
+    /// Prepares a grid for nets of the degrees m (with u) and n (with v) and for derivatives up to `order`,
+    /// at most 2.
     ///
     /// Any parameters, in any order. Cost: the basis at each uᵢ and vⱼ, and as much memory.
     ///
@@ -69,17 +71,17 @@ impl GridBatch {
         self.u.count * self.v.count
     }
 
-    /// Values (K = 1), with first (K = 3) and second (K = 6) partial derivatives, each kind in its own buffer, in
-    /// the order of [`partial_index`](crate::partial_index): 1; u, v; uu, uv, vv.
+    /// Values (K = 1), with first (K = 3) and second (K = 6) partial derivatives, each kind in its own
+    /// buffer, in the order of [`partial_index`](crate::partial_index): 1; u, v; uu, uv, vv.
     ///
     /// `nets` holds one net or several, one after another, in the order of [`TensorNet`](crate::TensorNet).
     /// Error: at most `4(m + n + 2(a+b) + 2)·u·scale`, see [the crate](crate). Cost: n + 1 multiply-adds a
     /// component and point, and (m+1)(n+1) a row; scratch for one net a thread.
     ///
     /// # Errors
-    /// [`BernsteinError::NetLength`] unless `nets` holds whole nets, [`BernsteinError::BufferLength`] unless every
-    /// buffer holds [`points_per_net`](Self::points_per_net) for each, [`BernsteinError::Order`] where the grid was
-    /// not prepared for such derivatives.
+    /// [`BernsteinError::NetLength`] unless `nets` holds whole nets, [`BernsteinError::BufferLength`] unless
+    /// every buffer holds [`points_per_net`](Self::points_per_net) for each, [`BernsteinError::Order`] where
+    /// the grid was not prepared for such derivatives.
     pub fn evaluate<P: BatchPoint, const K: usize>(
         &self,
         nets: &[P],
@@ -91,15 +93,15 @@ impl GridBatch {
         self.plain(P::DIMENSION, cast_slice(nets), &mut out)
     }
 
-    /// As [`evaluate`](Self::evaluate), for rational nets `(w·x, w·y, w·z, w)`: points and derivatives in space, by
-    /// the quotient rule.
+    /// As [`evaluate`](Self::evaluate), for rational nets `(w·x, w·y, w·z, w)`: points and derivatives in
+    /// space, by the quotient rule.
     ///
     /// Error: that of numerator and denominator, magnified by 1/|w| once an order.
     ///
     /// # Errors
-    /// As [`evaluate`](Self::evaluate), and [`BernsteinError::Pole`] with the first place where the denominator
-    /// vanishes within its rounding error, or the quotient is out of range; the buffers hold 0 at such places, and
-    /// the answers everywhere else.
+    /// As [`evaluate`](Self::evaluate), and [`BernsteinError::Pole`] with the first place where the
+    /// denominator vanishes within its rounding error, or the quotient is out of range; the buffers hold 0 at
+    /// such places, and the answers everywhere else.
     pub fn evaluate_rational<const K: usize>(
         &self,
         nets: &[DVec4],
@@ -113,9 +115,9 @@ impl GridBatch {
 
     /// Points and unit normals `∂u × ∂v / |∂u × ∂v|`.
     ///
-    /// The normal is the zero vector where ∂u and ∂v do not span a plane: where one of them is at most 2⁻⁴⁴ of the
-    /// largest difference of its net, or the sine of the angle between them is at most 2⁻⁴⁴.
-    /// Error in angle: that of the derivatives over their length and over the sine.
+    /// The normal is the zero vector where ∂u and ∂v do not span a plane: where one of them is at most 2⁻⁴⁴
+    /// of the largest difference of its net, or the sine of the angle between them is at most 2⁻⁴⁴. Error in
+    /// angle: that of the derivatives over their length and over the sine.
     ///
     /// # Errors
     /// As [`evaluate`](Self::evaluate); the grid must be prepared for first derivatives.
@@ -319,7 +321,8 @@ impl<const K: usize, const KIND: u8, const N: usize> Job for Rows<'_, K, KIND, N
 
 /// `Σⱼ Bⱼⁿ⁻ᵇ(v) Rⱼ` for the columns from `first` on, R being the row's curve of the order at `place`.
 ///
-/// Lanes beyond the last column give 0. They are stored where there is room, and overwritten by the next row.
+/// Lanes beyond the last column repeat it. They are stored where there is room, and overwritten by the next
+/// row.
 #[inline(always)]
 fn combine<S: Lanes, const N: usize, const D: usize>(
     simd: S,

@@ -14,8 +14,8 @@ pub(super) struct Table {
     pub(super) count: usize,
     /// `Bᵢⁿ⁻ᵏ(t)` of order k: i fastest, then the parameter.
     rows: Vec<Vec<f64>>,
-    /// The same for registers: the parameter's place in its block of [`WIDTH`] fastest, then i, then the block.
-    /// Places beyond the last parameter hold 0.
+    /// The same for registers: the parameter's place in its block of [`WIDTH`] fastest, then i, then the
+    /// block. Places beyond the last parameter repeat it.
     blocks: Vec<Vec<f64>>,
     /// `Σᵢ |Bᵢⁿ(t)|`, padded likewise: 1 inside `[0, 1]`.
     spread: Vec<f64>,
@@ -32,9 +32,12 @@ impl Table {
             let mut row = vec![0.0; count * width];
             let mut block = vec![0.0; padded * width];
             if width > 0 {
-                for ((at, &t), row) in parameters.iter().enumerate().zip(row.chunks_exact_mut(width)) {
+                for (&t, row) in parameters.iter().zip(row.chunks_exact_mut(width)) {
                     basis(t, row);
-                    for (i, &b) in row.iter().enumerate() {
+                }
+                for at in 0..padded {
+                    let last = at.min(count - 1) * width;
+                    for (i, &b) in row[last..last + width].iter().enumerate() {
                         block[(at / WIDTH * width + i) * WIDTH + at % WIDTH] = b;
                     }
                 }
@@ -44,7 +47,7 @@ impl Table {
         }
         let mut spread: Vec<f64> =
             rows[0].chunks_exact(degree + 1).map(|row| row.iter().map(|b| b.abs()).sum()).collect();
-        spread.resize(padded, 1.0);
+        spread.resize(padded, spread.last().copied().unwrap_or(1.0));
         Self { degree, count, rows, blocks, spread }
     }
 

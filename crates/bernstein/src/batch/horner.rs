@@ -1,14 +1,14 @@
 //! One polynomial at a register of parameters.
 //!
-//! With `qᵢ = C(n,i) Pᵢ` and s = 1 − t the polynomial is `sⁿ Σ qᵢ xⁱ`, x = t/s, and also `tⁿ Σ qₙ₋ᵢ yⁱ`, y = s/t.
-//! Horner's scheme needs one fused multiply-add a coefficient for either. No term is larger than the
-//! corresponding `|Bᵢⁿ(t) Pᵢ|`, wherever t is, so both are as accurate as nested multiplication: term i takes the
-//! rounding of s n − i times, that of x i times, i + 1 roundings of Horner's scheme, those of qᵢ, and n of the
-//! power, 3n + 4 together.
+//! With `qᵢ = C(n,i) Pᵢ` and s = 1 − t the polynomial is `sⁿ Σ qᵢ xⁱ`, x = t/s, and also `tⁿ Σ qₙ₋ᵢ yⁱ`, y =
+//! s/t. Horner's scheme needs one fused multiply-add a coefficient for either. No term is larger than the
+//! corresponding `|Bᵢⁿ(t) Pᵢ|`, wherever t is, so both are as accurate as nested multiplication: term i takes
+//! the rounding of s n − i times, that of x i times, i + 1 roundings of Horner's scheme, those of qᵢ, and n
+//! of the power, 3n + 4 together.
 //!
 //! Up to degree [`ONE_SIDED`] the first form serves every t but t = 1; xⁿ, at most 2⁵³ⁿ, leaves room for
-//! coordinates up to 10¹⁵⁰. Above, each lane takes the form whose quotient is at most 1, that is the first one for
-//! t ≤ ½.
+//! coordinates up to 10¹⁵⁰. Above, each lane takes the form whose quotient is at most 1, that is the first
+//! one for t ≤ ½.
 
 // As in `simd.rs`: plain loops over registers.
 #![allow(clippy::needless_range_loop)]
@@ -27,7 +27,8 @@ pub(super) struct Parameter<S: Lanes, const TWO_SIDED: bool> {
     quotient: S::f64s,
     /// What the sum is to be multiplied by n times: s, or t in the reversed lanes of the two-sided form.
     base: S::f64s,
-    /// The lanes that take the second form (two-sided), or those where t = 1 and x does not exist (one-sided).
+    /// The lanes that take the second form (two-sided), or those where t = 1 and x does not exist
+    /// (one-sided).
     reversed: S::m64s,
     /// Whether `reversed` is true in any lane.
     some: bool,
@@ -80,12 +81,13 @@ impl<S: Lanes, const TWO_SIDED: bool> Parameter<S, TWO_SIDED> {
     #[inline(always)]
     fn mixed_sum<const D: usize>(&self, coefficients: &[[f64; D]]) -> [S::f64s; D] {
         let simd = self.simd;
-        let mut sum = [simd.splat_f64s(0.0); D];
-        for (reversed, kept) in coefficients.iter().zip(coefficients.iter().rev()) {
+        let mut pairs = coefficients.iter().zip(coefficients.iter().rev());
+        let Some((reversed, kept)) = pairs.next() else { return [simd.splat_f64s(0.0); D] };
+        let mut sum = select(simd, self.reversed, splat(simd, reversed), splat(simd, kept));
+        for (reversed, kept) in pairs {
+            let next = select(simd, self.reversed, splat(simd, reversed), splat(simd, kept));
             for c in 0..D {
-                let (reversed, kept) = (simd.splat_f64s(reversed[c]), simd.splat_f64s(kept[c]));
-                let next = simd.select_f64s(self.reversed, reversed, kept);
-                sum[c] = simd.mul_add_f64s(sum[c], self.quotient, next);
+                sum[c] = simd.mul_add_f64s(sum[c], self.quotient, next[c]);
             }
         }
         sum

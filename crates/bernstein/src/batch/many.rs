@@ -13,13 +13,14 @@ use super::simd::{Job, Lanes, WIDTH, dispatch, dispatch_in};
 use super::{BatchPoint, check_length};
 use crate::{BernsteinError, MAX_DEGREE, binomial};
 
-/// Cuts many nets at `t`, as [`subdivide`](crate::subdivide) does one curve: `left` holds each over `[0, t]`, `right` over
-/// `[t, 1]`.
+/// Cuts many nets at `t`, as [`subdivide`](crate::subdivide) does one curve: `left` holds each over `[0, t]`,
+/// `right` over `[t, 1]`.
 ///
-/// Each polynomial has `degree + 1` rows of `row` points. With `row` = 1 these are curves; tensor nets of the degrees
-/// m × n are cut in u with `degree` = m and `row` = n + 1, and in v with `degree` = n and `row` = 1. The two parts share their common row to the bit, and the outer rows
-/// are kept to the bit. Error of each point: at most `4(degree + 2)·u` times its combination of absolute values. Cost:
-/// degree(degree+1)/2 affine combinations a point of a row.
+/// Each polynomial has `degree + 1` rows of `row` points. With `row` = 1 these are curves; tensor nets of the
+/// degrees m × n are cut in u with `degree` = m and `row` = n + 1, and in v with `degree` = n and `row` = 1.
+/// The two parts share their common row to the bit, and the outer rows are kept to the bit. Error of each
+/// point: at most `4(degree + 2)·u` times its combination of absolute values. Cost: degree(degree+1)/2 affine
+/// combinations a point of a row.
 ///
 /// ```
 /// let (mut left, mut right) = ([0.0; 4], [0.0; 4]);
@@ -29,8 +30,9 @@ use crate::{BernsteinError, MAX_DEGREE, binomial};
 /// ```
 ///
 /// # Errors
-/// [`BernsteinError::Degree`] above [`MAX_DEGREE`], [`BernsteinError::BufferLength`] unless `points` holds whole
-/// polynomials and `left` and `right` have its length.
+/// [`BernsteinError::NoPoints`] where rows are empty, [`BernsteinError::Degree`] above [`MAX_DEGREE`],
+/// [`BernsteinError::BufferLength`] unless `points` holds whole polynomials and `left` and `right` have its
+/// length.
 pub fn subdivide_many<P: BatchPoint>(
     points: &[P],
     degree: usize,
@@ -43,6 +45,9 @@ pub fn subdivide_many<P: BatchPoint>(
     check_whole(points.len(), (degree + 1).saturating_mul(row))?;
     check_length("left", points.len(), left.len())?;
     check_length("right", points.len(), right.len())?;
+    if points.is_empty() {
+        return Ok(());
+    }
     let row = row * P::DIMENSION;
     split_all(cast_slice(points), degree, row, t, cast_slice_mut(left), cast_slice_mut(right));
     Ok(())
@@ -50,9 +55,6 @@ pub fn subdivide_many<P: BatchPoint>(
 
 fn split_all(points: &[f64], degree: usize, row: usize, t: f64, left: &mut [f64], right: &mut [f64]) {
     let size = (degree + 1) * row;
-    if points.is_empty() {
-        return;
-    }
     let chunk = CHUNK.div_ceil(size) * size;
     let out = [left.chunks_mut(chunk), right.chunks_mut(chunk)];
     each_chunk(points.chunks(chunk), out, |points, [left, right]| match (degree, row) {
@@ -101,9 +103,9 @@ impl<const DEGREE: usize, const ROW: usize> Job for Split<'_, DEGREE, ROW> {
 
 /// Raises the degrees of many tensor nets from `degrees` to `to`: `ΣΣ Bᵢᵐ Bⱼⁿ Pᵢⱼ = ΣΣ Bₖᵖ Bₗ^q Qₖₗ`.
 ///
-/// `Qₖ = Σᵢ C(m,i) C(p−m,k−i)/C(p,k) Pᵢ` in each direction, convex combinations; the corners are kept to the bit.
-/// Curves are nets of the degrees 0 × n. Error: at most `4(p + q + 2)·u` times the same combination of absolute
-/// values. Cost: (p−m+1)(n+1)(p+1) + (q−n+1)(p+1)(q+1) multiply-adds a component.
+/// `Qₖ = Σᵢ C(m,i) C(p−m,k−i)/C(p,k) Pᵢ` in each direction, convex combinations; the corners are kept to the
+/// bit. Curves are nets of the degrees 0 × n. Error: at most `4(p + q + 2)·u` times the same combination of
+/// absolute values. Cost: (p−m+1)(n+1)(p+1) + (q−n+1)(p+1)(q+1) multiply-adds a component.
 ///
 /// ```
 /// let mut out = [0.0; 6];
@@ -113,8 +115,9 @@ impl<const DEGREE: usize, const ROW: usize> Job for Split<'_, DEGREE, ROW> {
 /// ```
 ///
 /// # Errors
-/// [`BernsteinError::Degree`] above [`MAX_DEGREE`], [`BernsteinError::NetLength`] unless `points` holds whole nets,
-/// [`BernsteinError::BufferLength`] unless `out` holds as many of the new degrees, or where `to` is lower.
+/// [`BernsteinError::Degree`] above [`MAX_DEGREE`], [`BernsteinError::NetLength`] unless `points` holds whole
+/// nets, [`BernsteinError::BufferLength`] unless `out` holds as many of the new degrees, or where `to` is
+/// lower.
 pub fn elevate_many<P: BatchPoint>(
     points: &[P],
     degrees: [usize; 2],
@@ -231,10 +234,11 @@ impl Job for Elevate<'_> {
     }
 }
 
-/// Takes many curves of one degree to the power basis: `Σ Bᵢⁿ(t) Pᵢ = Σ tᵏ aₖ`, `aₖ = C(n,k) Σᵢ (−1)ᵏ⁻ⁱ C(k,i) Pᵢ`.
+/// Takes many curves of one degree to the power basis: `Σ Bᵢⁿ(t) Pᵢ = Σ tᵏ aₖ`, `aₖ = C(n,k) Σᵢ (−1)ᵏ⁻ⁱ
+/// C(k,i) Pᵢ`.
 ///
-/// Error: at most `4(n + 2)·u` times the same sum of absolute values. It grows like 3ⁿ against the size of the points:
-/// at degree 20 about nine digits are left. Cost: (n+1)(n+2)/2 multiply-adds a component.
+/// Error: at most `4(n + 2)·u` times the same sum of absolute values. It grows like 3ⁿ against the size of
+/// the points: at degree 20 about nine digits are left. Cost: (n+1)(n+2)/2 multiply-adds a component.
 ///
 /// ```
 /// let mut out = [0.0; 3];
@@ -244,8 +248,8 @@ impl Job for Elevate<'_> {
 /// ```
 ///
 /// # Errors
-/// [`BernsteinError::Degree`] above [`MAX_DEGREE`], [`BernsteinError::BufferLength`] unless `points` holds whole curves
-/// and `out` has its length.
+/// [`BernsteinError::Degree`] above [`MAX_DEGREE`], [`BernsteinError::BufferLength`] unless `points` holds
+/// whole curves and `out` has its length.
 pub fn to_power_many<P: BatchPoint>(
     points: &[P],
     degree: usize,
@@ -317,12 +321,11 @@ fn check_degree(degree: usize) -> Result<(), BernsteinError> {
 
 /// Checks that a number of points is made of whole polynomials.
 fn check_whole(given: usize, size: usize) -> Result<(), BernsteinError> {
-    if size > 0 && given.is_multiple_of(size) {
+    if size == 0 {
+        return Err(BernsteinError::NoPoints);
+    }
+    if given.is_multiple_of(size) {
         return Ok(());
     }
-    Err(BernsteinError::BufferLength {
-        buffer: "points",
-        needed: size.max(given.next_multiple_of(size.max(1))),
-        given,
-    })
+    Err(BernsteinError::BufferLength { buffer: "points", needed: given.next_multiple_of(size), given })
 }

@@ -7,28 +7,31 @@
 //! | one patch at many parameters without order | [`PatchBatch`] |
 //! | many curves or nets cut, raised in degree, taken to the power basis | [`subdivide_many`], [`elevate_many`], [`to_power_many`] |
 //!
-//! **Layout.** Points are arrays of structures, `&mut [DVec3]` and the like, as callers hold them. Values and each kind
-//! of derivatives have a buffer of their own, in the order 1, d, d² and 1; ∂u, ∂v; ∂uu, ∂uv, ∂vv: `evaluate` takes as many buffers
-//! as are wanted. Use the buffers again: writing into fresh memory costs ten times the arithmetic.
+//! **Layout.** Points are arrays of structures, `&mut [DVec3]` and the like, as callers hold them. Values and
+//! each kind of derivatives have a buffer of their own, in the order 1, d, d² and 1; ∂u, ∂v; ∂uu, ∂uv, ∂vv:
+//! `evaluate` takes as many buffers as are wanted. Use the buffers again: writing into fresh memory costs ten
+//! times the arithmetic.
 //!
-//! **Instructions.** The widest registers are chosen at run time: AVX-512, AVX2 with FMA, or none. All of them do the
-//! same fused multiply-adds in the same order (without FMA by `f64::mul_add`, which is then slow), so the bits are the
-//! same on every processor. A point's result depends on its parameters alone, not on its place, on the length of the
-//! batch or the number of threads. With the feature `rayon` (default), batches of more than 8192 points are
-//! spread over rayon's threads; install a pool of one thread where that is not wanted.
+//! **Instructions.** The widest registers are chosen at run time: AVX-512, AVX2 with FMA, or none. All of
+//! them do the same fused multiply-adds in the same order (without FMA by `f64::mul_add`, which is then
+//! slow), so the bits are the same on every processor. A point's result depends on its parameters alone, not
+//! on its place, on the length of the batch or the number of threads. With the feature `rayon` (default),
+//! batches of more than 8192 points are spread over rayon's threads; install a pool of one thread where that
+//! is not wanted.
 //!
-//! **Methods.** Measured on AVX-512 with three components: the basis costs three multiplications a degree and
-//! one multiply-add a component, nested multiplication two operations a component and degree, Horner's scheme in
-//! the quotient t/(1−t), or its inverse, one multiply-add a component and degree and one division in all.
-//! - Curves take Horner's scheme: up to degree 9 in t/(1−t) for every t, above in whichever quotient is at most 1,
-//!   parameter by parameter.
-//! - Scattered points take it in both parameters up to a total degree of 9, and the basis up to degree 31 in each; beyond,
-//!   or where u or v is 1 exactly, the basis.
-//!   Above degree 31 they go one by one through [`TensorNet::partials`](crate::TensorNet::partials).
+//! **Methods.** Chosen by what they cost a degree: the basis takes three multiplications, and one multiply-add a
+//! component; nested multiplication and the linear-time scheme of Woźny and Chudy take two operations a component
+//! and more; Horner's scheme in the quotient t/(1−t), or its inverse, takes one multiply-add a component, and one
+//! division in all.
+//! - Curves take Horner's scheme: up to degree 9 in t/(1−t) for every t, above in whichever quotient is at
+//!   most 1, parameter by parameter.
+//! - Scattered points take it in both parameters up to a total degree of 9, and the basis up to degree 31 in
+//!   each; beyond, or where u or v is 1 exactly, the basis. Above degree 31 they go one by one through
+//!   [`TensorNet::partials`](crate::TensorNet::partials).
 //! - Grids contract the net to one curve a row, and add that up with the basis of each column, made once.
 //!
-//! **Limits.** Any finite parameter, degrees up to [`MAX_DEGREE`](crate::MAX_DEGREE), coordinates up to 10¹⁵⁰. The error is the
-//! crate's, `4(n + 2k + 2)·u·scale`, for parameters outside `[0, 1]` too.
+//! **Limits.** Any finite parameter, degrees up to [`MAX_DEGREE`](crate::MAX_DEGREE), coordinates up to
+//! 10¹⁵⁰. The error is the crate's, `4(n + 2k + 2)·u·scale`, for parameters outside `[0, 1]` too.
 
 mod blocks;
 mod coefficients;

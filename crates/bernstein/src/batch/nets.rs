@@ -6,7 +6,8 @@ use super::simd::{Lanes, WIDTH};
 /// The orders (a, b) of ∂ᵃ⁺ᵇ/∂uᵃ∂vᵇ, in the order of [`partial_index`](crate::partial_index).
 pub(super) const ORDERS: [[usize; 2]; 6] = [[0, 0], [1, 0], [0, 1], [2, 0], [1, 1], [0, 2]];
 
-/// The nets `m!/(m−a)! · n!/(n−b)! · Δᵃ⁰Δ⁰ᵇ Pᵢⱼ` of the first `count` orders, for points of `dimension` numbers.
+/// The nets `m!/(m−a)! · n!/(n−b)! · Δᵃ⁰Δ⁰ᵇ Pᵢⱼ` of the first `count` orders, for points of `dimension`
+/// numbers.
 #[derive(Debug, Clone)]
 pub(super) struct Nets {
     degrees: [usize; 2],
@@ -54,6 +55,9 @@ impl Nets {
             let (length, wide) =
                 (columns * self.dimension, if in_u { columns } else { columns + 1 } * self.dimension);
             let step = if in_u { wide } else { self.dimension };
+            if length == 0 {
+                continue;
+            }
             for row in 0..rows {
                 let from = &from[row * wide..][..step + length];
                 for ((to, high), low) in to[row * length..][..length].iter_mut().zip(&from[step..]).zip(from)
@@ -69,7 +73,8 @@ impl Nets {
         self.of_order
     }
 
-    /// Multiplies the nets of first derivatives by powers of two that bring their largest numbers into [1, 2).
+    /// Multiplies the nets of first derivatives by powers of two that bring their largest numbers into [1,
+    /// 2).
     pub(super) fn normalize_first(&mut self) {
         for net in self.of_order.iter_mut().skip(1) {
             let end = net.len() - WIDTH;

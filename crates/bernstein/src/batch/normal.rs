@@ -8,8 +8,8 @@ use super::simd::Lanes;
 /// Shares of derivatives up to this one count as zero, 2⁻⁴⁴: 2⁹ roundings.
 const COLLAPSE: f64 = 256.0 * f64::EPSILON;
 
-/// `a × b / |a × b|` for a and b scaled so that the largest differences of their nets lie in [1, 2); 0 where a or b is at
-/// most [`COLLAPSE`] or the sine of the angle between them is.
+/// `a × b / |a × b|` for a and b scaled so that the largest differences of their nets lie in [1, 2); 0 where
+/// a or b is at most [`COLLAPSE`] or the sine of the angle between them is.
 #[inline(always)]
 pub(super) fn unit_normal<S: Lanes>(simd: S, a: [S::f64s; 3], b: [S::f64s; 3]) -> [S::f64s; 3] {
     let mut normal = a;

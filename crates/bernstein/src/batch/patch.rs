@@ -1,8 +1,8 @@
 //! One tensor-product patch at scattered parameters.
 //!
-//! Of a low total degree each polynomial is nested Horner schemes in x = u/(1−u) and y = v/(1−v), as in `horner.rs`:
-//! one multiply-add a control point and component. The lanes where u or v is 1, and patches of higher degree, take
-//! the basis of both parameters and add up rows first.
+//! Of a low total degree each polynomial is nested Horner schemes in x = u/(1−u) and y = v/(1−v), as in
+//! `horner.rs`: one multiply-add a control point and component. The lanes where u or v is 1, and patches of
+//! higher degree, take the basis of both parameters and add up rows first.
 
 // As in `simd.rs`: plain loops over registers.
 #![allow(clippy::needless_range_loop)]
@@ -23,7 +23,8 @@ use super::{BatchPoint, check_length};
 use crate::glam::{DVec2, DVec3, DVec4};
 use crate::{BernsteinError, MAX_DEGREE, TensorNet, basis, binomial};
 
-/// A tensor-product patch, `p(u,v) = Σᵢ Σⱼ Bᵢᵐ(u) Bⱼⁿ(v) Pᵢⱼ`, made ready to be evaluated at many scattered parameters.
+/// A tensor-product patch, `p(u,v) = Σᵢ Σⱼ Bᵢᵐ(u) Bⱼⁿ(v) Pᵢⱼ`, made ready to be evaluated at many scattered
+/// parameters.
 ///
 /// For parameters that form a grid, [`GridBatch`](crate::GridBatch) takes a fraction of the time.
 ///
@@ -76,11 +77,13 @@ impl<P: BatchPoint> PatchBatch<P> {
         self.degrees
     }
 
-    /// Values (K = 1), with first (K = 3) and second (K = 6) partial derivatives at the parameters (u, v), each kind
-    /// in its own buffer, in the order of [`partial_index`](crate::partial_index): 1; u, v; uu, uv, vv.
+    /// Values (K = 1), with first (K = 3) and second (K = 6) partial derivatives at the parameters (u, v),
+    /// each kind in its own buffer, in the order of [`partial_index`](crate::partial_index): 1; u, v; uu, uv,
+    /// vv.
     ///
-    /// Error: at most `4(m + n + 2(a+b) + 2)·u·scale`, see [the crate](crate). Cost: one multiply-add a component and
-    /// control point for each kind; degrees above 31 go one by one through [`TensorNet::partials`].
+    /// Error: at most `4(m + n + 2(a+b) + 2)·u·scale`, see [the crate](crate). Cost: one multiply-add a
+    /// component and control point for each kind; degrees above 31 go one by one through
+    /// [`TensorNet::partials`].
     ///
     /// # Errors
     /// [`BernsteinError::BufferLength`] unless every buffer has the length of `parameters`.
@@ -127,15 +130,15 @@ impl<P: BatchPoint> PatchBatch<P> {
 }
 
 impl PatchBatch<DVec4> {
-    /// As [`evaluate`](Self::evaluate), for a rational net `(w·x, w·y, w·z, w)`: points and derivatives in space, by the
-    /// quotient rule.
+    /// As [`evaluate`](Self::evaluate), for a rational net `(w·x, w·y, w·z, w)`: points and derivatives in
+    /// space, by the quotient rule.
     ///
     /// Error: that of numerator and denominator, magnified by 1/|w| once an order.
     ///
     /// # Errors
-    /// [`BernsteinError::BufferLength`], and [`BernsteinError::Pole`] with the first place where the denominator
-    /// vanishes within its rounding error, or the quotient is out of range; the buffers hold 0 at such places, and the
-    /// answers everywhere else.
+    /// [`BernsteinError::BufferLength`], and [`BernsteinError::Pole`] with the first place where the
+    /// denominator vanishes within its rounding error, or the quotient is out of range; the buffers hold 0 at
+    /// such places, and the answers everywhere else.
     pub fn evaluate_rational<const K: usize>(
         &self,
         parameters: &[DVec2],

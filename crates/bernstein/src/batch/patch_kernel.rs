@@ -12,7 +12,8 @@ use crate::{binomial, partial_index};
 /// Degrees less than this one have their basis in registers on the stack.
 pub(super) const MAX_BASIS: usize = 32;
 
-/// Ways to evaluate: Horner schemes in the quotients, with the degrees known to the compiler or not, and by the basis.
+/// Ways to evaluate: Horner schemes in the quotients, with the degrees known to the compiler or not, and by
+/// the basis.
 pub(super) const BICUBIC: u8 = 0;
 pub(super) const QUOTIENTS: u8 = 1;
 pub(super) const BASIS: u8 = 2;
@@ -100,8 +101,8 @@ impl<S: Lanes> At<S> {
         sum
     }
 
-    /// The derivative at place k in the list of orders, as `Σᵢ Bᵢᵐ⁻ᵃ(u) Σⱼ Bⱼⁿ⁻ᵇ(v) Nᵢⱼ`; the degrees are less than
-    /// [`MAX_BASIS`].
+    /// The derivative at place k in the list of orders, as `Σᵢ Bᵢᵐ⁻ᵃ(u) Σⱼ Bⱼⁿ⁻ᵇ(v) Nᵢⱼ`; the degrees are
+    /// less than [`MAX_BASIS`].
     #[inline(always)]
     pub(super) fn by_basis<const D: usize>(&self, patch: &View<'_>, k: usize) -> [S::f64s; D] {
         let simd = self.simd;
@@ -133,7 +134,8 @@ fn array<S: Lanes>(register: S::f64s) -> [f64; WIDTH] {
     numbers
 }
 
-/// A derivative by the basis, for blocks with u = 1 or v = 1 somewhere; apart, so that the kernels stay small.
+/// A derivative by the basis, for blocks with u = 1 or v = 1 somewhere; apart, so that the kernels stay
+/// small.
 #[cold]
 #[inline(never)]
 fn at_ends<const D: usize>(

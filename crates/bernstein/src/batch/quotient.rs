@@ -14,8 +14,8 @@ pub(super) fn uncertainty(degree: usize) -> f64 {
     (4 * (degree + 2)) as f64 * UNIT_ROUNDOFF
 }
 
-/// Quotient rule for a surface: `S_α = (N_α − Σ_{0<β≤α} C(α,β) w_β S_{α−β}) / w`, K = 1, 3 or 6 orders in the order of
-/// [`partial_index`](crate::partial_index).
+/// Quotient rule for a surface: `S_α = (N_α − Σ_{0<β≤α} C(α,β) w_β S_{α−β}) / w`, K = 1, 3 or 6 orders in the
+/// order of [`partial_index`](crate::partial_index).
 ///
 /// The second answer says for which lanes w is at most `least` in size, or the quotient is not finite.
 ///
@@ -54,7 +54,8 @@ pub(super) fn surface<S: Lanes, const K: usize>(
     (out, suspicious(simd, jet[0][3], &out, least))
 }
 
-/// Quotient rule for a curve, `C⁽ᵏ⁾ = (N⁽ᵏ⁾ − Σ_{0<j≤k} C(k,j) w⁽ʲ⁾ C⁽ᵏ⁻ʲ⁾) / w`, up to order 2; otherwise as [`surface`].
+/// Quotient rule for a curve, `C⁽ᵏ⁾ = (N⁽ᵏ⁾ − Σ_{0<j≤k} C(k,j) w⁽ʲ⁾ C⁽ᵏ⁻ʲ⁾) / w`, up to order 2; otherwise as
+/// [`surface`].
 #[inline(always)]
 pub(super) fn curve<S: Lanes, const K: usize>(
     simd: S,
@@ -110,8 +111,8 @@ pub(super) fn lane<S: Lanes>(register: S::f64s, at: usize) -> f64 {
     numbers[at % WIDTH]
 }
 
-/// Whether a point that looked suspicious is a pole: its denominator vanishes within `bound`, or the numbers at `place` in
-/// one of the buffers are not all finite. A pole's numbers become 0.
+/// Whether a point that looked suspicious is a pole: its denominator vanishes within `bound`, or the numbers
+/// at `place` in one of the buffers are not all finite. A pole's numbers become 0.
 #[cold]
 pub(super) fn settle(denominator: f64, bound: f64, out: &mut [&mut [f64]], place: usize) -> bool {
     let range = 3 * place..3 * place + 3;

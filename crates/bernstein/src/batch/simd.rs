@@ -1,13 +1,16 @@
 //! Vector registers, and the choice of the widest that the processor has.
 //!
-//! A kernel is a [`Job`], written once over [`Lanes`]. All registers do the same operations in the same order, with
-//! a multiplication fused into an addition exactly where the kernel says `mul_add`, and no operation of a kernel
-//! mixes lanes: a lane's result has the same bits in every lane and with every instruction set.
+//! A kernel is a [`Job`], written once over [`Lanes`]. All registers do the same operations in the same
+//! order, with a multiplication fused into an addition exactly where the kernel says `mul_add`, and no
+//! operation of a kernel mixes lanes: a lane's result has the same bits in every lane and with every
+//! instruction set.
 //!
-//! Everything that touches a register is marked `#[inline(always)]`, and loops over registers are plain `for` loops:
-//! a function of the standard library between the two would be compiled without the vector instructions.
+//! Everything that touches a register is marked `#[inline(always)]`, and loops over registers are plain `for`
+//! loops: a function of the standard library between the two would be compiled without the vector
+//! instructions.
 
-// An index says it best, and no adaptor stands between the registers and the function that has their instructions.
+// An index says it best, and no adaptor stands between the registers and the function that has their
+// instructions.
 #![allow(clippy::needless_range_loop)]
 
 use pulp::{NullaryFnOnce, Scalar, Simd};
@@ -57,7 +60,8 @@ impl Path {
         Self::available().next().unwrap_or(Self::Portable)
     }
 
-    /// Runs `job` for points of `dimension` numbers; a path that the processor lacks falls back to the portable one.
+    /// Runs `job` for points of `dimension` numbers; a path that the processor lacks falls back to the
+    /// portable one.
     pub(super) fn run<J: Job>(self, dimension: usize, job: J) -> J::Output {
         match dimension {
             1 => self.run_in::<J, 1>(job),
@@ -118,11 +122,12 @@ impl<S: Lanes, J: Job, const D: usize> NullaryFnOnce for Call<S, J, D> {
 
 /// A kind of register, with the moves between registers and points.
 pub(super) trait Lanes: Simd {
-    /// From one register a component to the points one after another: lane l of `parts[c]` becomes number `D·l + c`
-    /// of the registers returned.
+    /// From one register a component to the points one after another: lane l of `parts[c]` becomes number
+    /// `D·l + c` of the registers returned.
     fn interleave<const D: usize>(self, parts: [Self::f64s; D]) -> [Self::f64s; D];
 
-    /// The first lanes of pairs: x of each pair, then y. The inverse of [`interleave`](Self::interleave) for D = 2.
+    /// The first lanes of pairs: x of each pair, then y. The inverse of [`interleave`](Self::interleave) for
+    /// D = 2.
     fn deinterleave(self, pairs: [Self::f64s; 2]) -> [Self::f64s; 2];
 
     /// The register that begins at `place`.

@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 
 use super::simd::{FORCED, Path};
-use super::{CurveBatch, GridBatch, PatchBatch};
+use super::{CurveBatch, GridBatch, PatchBatch, elevate_many, subdivide_many, to_power_many};
 use crate::glam::{DVec2, DVec3, DVec4};
 
 /// Numbers without a pattern: multiples of 2⁻³² in [−1, 1).
@@ -80,12 +80,12 @@ fn curves() {
                 a.extend(c);
                 vec![(answer, a)]
             });
-            let [x, xy]: [Vec<f64>; 2] = [1, 2].map(|_| net.iter().map(|p| p.x).collect());
+            let x: Vec<f64> = net.iter().map(|p| p.x).collect();
             on_every_path(&what, || {
                 let mut out = vec![0.0; count];
                 CurveBatch::new(&x).unwrap().evaluate(&t, [&mut out]).unwrap();
                 let mut pairs = vec![DVec2::ZERO; count];
-                let net: Vec<DVec2> = xy.iter().map(|&x| DVec2::new(x, -x)).collect();
+                let net: Vec<DVec2> = x.iter().map(|&x| DVec2::new(x, -x)).collect();
                 CurveBatch::new(&net).unwrap().evaluate(&t, [&mut pairs]).unwrap();
                 assert_eq!(pairs.iter().map(|p| p.x).collect::<Vec<_>>(), out);
                 out
@@ -158,5 +158,28 @@ fn scattered() {
                 vec![(answer, out)]
             });
         }
+    }
+}
+
+#[test]
+fn many() {
+    for (m, n) in [(0, 0), (1, 4), (3, 3), (5, 2)] {
+        let nets = space(&points(5 * (m + 1) * (n + 1), 21));
+        on_every_path(&format!("{m} × {n} cut"), || {
+            let (mut left, mut right) = (nets.clone(), nets.clone());
+            subdivide_many(&nets, m, n + 1, 0.3, &mut left, &mut right).unwrap();
+            left.extend(right);
+            left
+        });
+        on_every_path(&format!("{m} × {n} elevated"), || {
+            let mut out = vec![DVec3::ZERO; 5 * (m + 2) * (n + 3)];
+            elevate_many(&nets, [m, n], [m + 1, n + 2], &mut out).unwrap();
+            out
+        });
+        on_every_path(&format!("degree {n} to the power basis"), || {
+            let mut out = nets.clone();
+            to_power_many(&nets, n, &mut out).unwrap();
+            out
+        });
     }
 }
