@@ -226,6 +226,38 @@ pub enum BernsteinError {
         /// The largest one served.
         limit: usize,
     },
+
+    /// Derivatives of a higher order than a batch is made for.
+    ///
+    /// ```
+    /// use casteljau_bernstein::{BernsteinError, GridBatch};
+    /// let refused = GridBatch::new([3, 3], &[0.5], &[0.5], 3);
+    /// assert_eq!(refused.err(), Some(BernsteinError::Order { order: 3, limit: 2 }));
+    /// ```
+    #[error("derivatives of order {order} are asked for, {limit} is the highest order here")]
+    Order {
+        /// The order asked for.
+        order: usize,
+        /// The highest one there is.
+        limit: usize,
+    },
+
+    /// The denominator of a rational shape vanishes within its rounding error, or the quotient is out of range.
+    ///
+    /// ```
+    /// use casteljau_bernstein::{BernsteinError, CurveBatch, glam::{DVec3, DVec4}};
+    /// let curve = CurveBatch::new(&[DVec4::W, DVec4::new(1.0, 0.0, 0.0, -1.0)])?; // w = 1 − 2t
+    /// let mut points = [DVec3::ZERO; 3];
+    /// let refused = curve.evaluate_rational(&[0.0, 0.5, 1.0], [&mut points]);
+    /// assert_eq!(refused, Err(BernsteinError::Pole { index: 1 }));
+    /// assert_eq!(points, [DVec3::ZERO, DVec3::ZERO, -DVec3::X]);
+    /// # Ok::<(), BernsteinError>(())
+    /// ```
+    #[error("the denominator vanishes at parameter number {index}")]
+    Pole {
+        /// The first parameter's place, counted from 0.
+        index: usize,
+    },
 }
 
 /// Refuses a buffer that is shorter than needed.

@@ -5,6 +5,8 @@
 //! rational shapes use `DVec4`) and writes into buffers that the caller owns. Kernels allocate nothing, but for
 //! those that say so: composition, extremes, roots, matrices, and products of intervals and tensor products from degree 32 on.
 //!
+//! **Batches.** Thousands of parameters or nets at once go through [`batch`], with vector instructions and on all cores.
+//!
 //! ```
 //! use casteljau_bernstein::{basis, value};
 //! let mut b = [0.0; 4];
@@ -67,6 +69,7 @@
 pub use glam;
 
 mod basis;
+pub mod batch;
 mod binomial;
 mod blossom;
 mod bounds;
@@ -92,6 +95,7 @@ mod tensor;
 mod wedge;
 
 pub use basis::{basis, basis_barycentric, basis_derivatives};
+pub use batch::{BatchPoint, CurveBatch, GridBatch, PatchBatch, elevate_many, subdivide_many, to_power_many};
 pub use binomial::{MAX_DEGREE, binomial};
 pub use blossom::{blossom, blossom_tensor};
 pub use bounds::{Extremes, extremes, hull_bounds};

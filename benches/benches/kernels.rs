@@ -1,0 +1,299 @@
+//! The batch kernels of `casteljau-bernstein` on one thread, against what this machine can do.
+//!
+//! Run with `cargo bench -p casteljau-benches --bench kernels`. First the machine: how fast it stores into
+//! memory that was touched before, with buffers of the size that the batches have, and how many multiply-adds
+//! it does. Then each row says, an item (point, patch or curve): the least time of all runs, the limit, which
+//! is the larger of what its stores and what its multiply-adds take at these rates, the ratio of the two, and
+//! the bar, which is a plain AVX-512 program's time at 24 GB/s scaled to the bandwidth found, with 15 % on
+//! top.
+//!
+//! | work an item | bytes | multiply-adds |
+//! | --- | --- | --- |
+//! | curve of degree n | 24 | 3n and the power of 1 − t |
+//! | value and two derivatives | 72 | 9n |
+//! | bicubic grid: a row's curve at its column | 24 | 12 |
+//! | bicubic at scattered points: all control points | 24 | 48 |
+//! | split: degree 3, six affine combinations of 4 points, two operations each | 768 | 144 |
+//!
+//! On a shared machine the rates fall and rise with the neighbours' work; compare the ratios, not the times.
+
+#![allow(clippy::unwrap_used)]
+
+use std::cell::Cell;
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use casteljau_bernstein::glam::{DVec2, DVec3, DVec4};
+use casteljau_bernstein::{CurveBatch, GridBatch, PatchBatch, elevate_many, subdivide_many, to_power_many};
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use pulp::{Arch, Simd, WithSimd};
+
+const POINTS: usize = 1_000_000;
+/// Points a side of the large grids.
+const SIDE: usize = 1000;
+
+/// What the machine does in this run.
+#[derive(Clone, Copy)]
+struct Machine {
+    /// Nanoseconds a byte stored, for buffers of 24 MB and of more than 48 MB.
+    store: [f64; 2],
+    /// Nanoseconds a multiply-add.
+    multiply_add: f64,
+}
+
+struct Fill<'a>(&'a mut [f64]);
+
+impl WithSimd for Fill<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let value = simd.splat_f64s(black_box(0.5));
+        S::as_mut_simd_f64s(self.0).0.fill(value);
+    }
+}
+
+/// 1.2 million multiplications with addition, of whole registers, in twelve chains.
+struct MultiplyAdd;
+
+const STEPS: usize = 100_000;
+const CHAINS: usize = 12;
+
+impl WithSimd for MultiplyAdd {
+    type Output = usize;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> usize {
+        let mut sums = [simd.splat_f64s(1.0); CHAINS];
+        let x = simd.splat_f64s(black_box(0.5));
+        for _ in 0..STEPS {
+            for sum in &mut sums {
+                *sum = simd.mul_add_f64s(*sum, x, x);
+            }
+        }
+        black_box(sums.map(|sum| simd.reduce_sum_f64s(sum)));
+        STEPS * CHAINS * S::F64_LANES
+    }
+}
+
+/// Least time of some runs, in nanoseconds.
+fn least(runs: usize, mut work: impl FnMut()) -> f64 {
+    let once = |_| {
+        let start = Instant::now();
+        work();
+        start.elapsed().as_nanos() as f64
+    };
+    (0..runs).map(once).fold(f64::INFINITY, f64::min)
+}
+
+impl Machine {
+    fn measure() -> Self {
+        let arch = Arch::new();
+        let store = [POINTS * 3, POINTS * 9].map(|numbers| {
+            let mut buffer = vec![0.1; numbers];
+            least(20, || arch.dispatch(Fill(black_box(&mut buffer)))) / (8 * numbers) as f64
+        });
+        let mut count = 0;
+        let time = least(20, || count = arch.dispatch(MultiplyAdd));
+        let machine = Self { store, multiply_add: time / count as f64 };
+        println!(
+            "this machine, one thread: stores {:.1} GB/s into 24 MB, {:.1} GB/s into 72 MB; {:.1} billion multiply-adds a second\n",
+            1.0 / store[0],
+            1.0 / store[1],
+            1.0 / machine.multiply_add
+        );
+        machine
+    }
+}
+
+/// One row of the table: what an item stores and computes, and the bar in nanoseconds at 24 GB/s.
+struct Row {
+    name: &'static str,
+    items: usize,
+    bytes: usize,
+    multiply_adds: usize,
+    reference: f64,
+}
+
+fn row(criterion: &mut Criterion, machine: Machine, row: &Row, mut work: impl FnMut()) {
+    work(); // buffers are touched before
+    let best = Cell::new(f64::INFINITY);
+    let mut group = criterion.benchmark_group("kernels");
+    group.throughput(Throughput::Elements(row.items as u64));
+    group.bench_function(row.name, |b| {
+        b.iter_custom(|count| {
+            let mut total = Duration::ZERO;
+            for _ in 0..count {
+                let start = Instant::now();
+                work();
+                let time = start.elapsed();
+                best.set(best.get().min(time.as_nanos() as f64));
+                total += time;
+            }
+            total
+        });
+    });
+    group.finish();
+    if best.get().is_infinite() {
+        return; // filtered out
+    }
+    let time = best.get() / row.items as f64;
+    let per_byte = machine.store[usize::from(row.items * row.bytes > 48_000_000)];
+    let (store, compute) = (row.bytes as f64 * per_byte, row.multiply_adds as f64 * machine.multiply_add);
+    let (limit, of) = if store >= compute { (store, "stores") } else { (compute, "multiply-adds") };
+    let bar = 1.15 * row.reference * (per_byte * 24.0).max(1.0);
+    println!(
+        "{:<44} {time:8.2} ns, limit {limit:7.2} ({of}), ratio {:5.2}; bar {bar:7.2}: {}\n",
+        row.name,
+        time / limit,
+        if time <= bar { "met" } else { "missed" }
+    );
+}
+
+/// Parameters without order: the fractions of multiples of the golden ratio.
+fn scattered(count: usize, step: f64) -> Vec<f64> {
+    (0..count).map(|i| (i as f64 * step).fract()).collect()
+}
+
+fn even(count: usize) -> Vec<f64> {
+    (0..count).map(|i| i as f64 / (count - 1) as f64).collect()
+}
+
+fn points(count: usize) -> Vec<DVec3> {
+    (0..count).map(|i| i as f64).map(|i| DVec3::new(i, (1.3 * i).sin(), (0.7 * i).cos())).collect()
+}
+
+fn weighted(count: usize) -> Vec<DVec4> {
+    let weights = (0..count).map(|i| 1.0 + 0.5 * (i as f64).sin());
+    points(count).into_iter().zip(weights).map(|(p, w)| (p * w).extend(w)).collect()
+}
+
+fn buffers<const K: usize>(count: usize) -> [Vec<DVec3>; K] {
+    [(); K].map(|()| vec![DVec3::ONE; count])
+}
+
+fn curves(criterion: &mut Criterion, machine: Machine) {
+    let t = scattered(POINTS, 0.618_033_988_75);
+    let [mut a, mut b, mut c] = buffers(POINTS);
+    let of =
+        |name, bytes, multiply_adds, reference| Row { name, items: POINTS, bytes, multiply_adds, reference };
+    let cubic = CurveBatch::new(&points(4)).unwrap();
+    row(criterion, machine, &of("cubic curve", 24, 12, 1.0), || {
+        cubic.evaluate(black_box(&t), [black_box(&mut a)]).unwrap();
+    });
+    row(criterion, machine, &of("cubic curve, two derivatives", 72, 24, 2.9), || {
+        cubic.evaluate(black_box(&t), [&mut a, &mut b, black_box(&mut c)]).unwrap();
+    });
+    let ninth = CurveBatch::new(&points(10)).unwrap();
+    row(criterion, machine, &of("curve of degree 9", 24, 30, 1.6), || {
+        ninth.evaluate(black_box(&t), [black_box(&mut a)]).unwrap();
+    });
+    let high = CurveBatch::new(&points(26)).unwrap();
+    row(criterion, machine, &of("curve of degree 25", 24, 83, 5.0), || {
+        high.evaluate(black_box(&t), [black_box(&mut a)]).unwrap();
+    });
+    let rational = CurveBatch::new(&weighted(4)).unwrap();
+    row(criterion, machine, &of("rational cubic curve", 24, 16, 0.94), || {
+        rational.evaluate_rational(black_box(&t), [black_box(&mut a)]).unwrap();
+    });
+}
+
+fn grids(criterion: &mut Criterion, machine: Machine) {
+    let axis = even(SIDE);
+    let [mut a, mut b, mut c] = buffers(SIDE * SIDE);
+    let of = |name, bytes, multiply_adds, reference| Row {
+        name,
+        items: SIDE * SIDE,
+        bytes,
+        multiply_adds,
+        reference,
+    };
+    // The basis is part of the work.
+    let grid = |degree, order| GridBatch::new([degree; 2], black_box(&axis), &axis, order).unwrap();
+    let net = points(16);
+    row(criterion, machine, &of("bicubic grid", 24, 12, 1.3), || {
+        grid(3, 0).evaluate(black_box(&net), [black_box(&mut a)]).unwrap();
+    });
+    row(criterion, machine, &of("bicubic grid, first derivatives", 72, 33, 3.2), || {
+        grid(3, 1).evaluate(black_box(&net), [&mut a, &mut b, black_box(&mut c)]).unwrap();
+    });
+    row(criterion, machine, &of("bicubic grid, unit normals", 48, 51, 2.6), || {
+        grid(3, 1).normals(black_box(&net), &mut a, black_box(&mut b)).unwrap();
+    });
+    let net = weighted(36);
+    row(criterion, machine, &of("rational biquintic grid", 24, 24, 1.5), || {
+        grid(5, 0).evaluate_rational(black_box(&net), [black_box(&mut a)]).unwrap();
+    });
+    row(criterion, machine, &of("rational biquintic grid, first derivatives", 72, 74, 4.0), || {
+        grid(5, 1).evaluate_rational(black_box(&net), [&mut a, &mut b, black_box(&mut c)]).unwrap();
+    });
+    let (nets, axis) = (points(160_000), even(16));
+    let [mut many] = buffers(10_000 * 256);
+    let small = Row {
+        name: "10,000 bicubic patches on 16 × 16 grids",
+        items: 10_000 * 256,
+        bytes: 24,
+        multiply_adds: 12,
+        reference: 1.0,
+    };
+    row(criterion, machine, &small, || {
+        let grid = GridBatch::new([3, 3], black_box(&axis), &axis, 0).unwrap();
+        grid.evaluate(black_box(&nets), [black_box(&mut many)]).unwrap();
+    });
+}
+
+fn patches(criterion: &mut Criterion, machine: Machine) {
+    let [u, v] = [0.754_877_666_25, 0.569_840_291].map(|step| scattered(POINTS, step));
+    let uv: Vec<DVec2> = u.into_iter().zip(v).map(|(u, v)| DVec2::new(u, v)).collect();
+    let [mut a, mut b, mut c] = buffers(POINTS);
+    let of =
+        |name, bytes, multiply_adds, reference| Row { name, items: POINTS, bytes, multiply_adds, reference };
+    let patch = PatchBatch::new(&points(16), [3, 3]).unwrap();
+    row(criterion, machine, &of("bicubic, scattered", 24, 50, 1.9), || {
+        patch.evaluate(black_box(&uv), [black_box(&mut a)]).unwrap();
+    });
+    row(criterion, machine, &of("bicubic, scattered, first derivatives", 72, 126, 5.7), || {
+        patch.evaluate(black_box(&uv), [&mut a, &mut b, black_box(&mut c)]).unwrap();
+    });
+}
+
+fn many(criterion: &mut Criterion, machine: Machine) {
+    let nets = points(16 * POINTS);
+    let [mut a, mut b] = buffers(16 * POINTS);
+    let of =
+        |name, bytes, multiply_adds, reference| Row { name, items: POINTS, bytes, multiply_adds, reference };
+    row(criterion, machine, &of("bicubic patch split at u = ½", 768, 144, 59.0), || {
+        subdivide_many(black_box(&nets), 3, 4, 0.5, &mut a, black_box(&mut b)).unwrap();
+    });
+    drop(b);
+    let [mut b] = buffers(25 * POINTS);
+    row(criterion, machine, &of("bicubic patch elevated to (4,4)", 600, 246, 46.0), || {
+        elevate_many(black_box(&nets), [3, 3], [4, 4], black_box(&mut b)).unwrap();
+    });
+    let curves = &nets[..21 * 100_000];
+    let power = Row {
+        name: "curve of degree 20 to the power basis",
+        items: 100_000,
+        bytes: 504,
+        multiply_adds: 693,
+        reference: 170.0,
+    };
+    row(criterion, machine, &power, || {
+        to_power_many(black_box(curves), 20, black_box(&mut a[..21 * 100_000])).unwrap();
+    });
+}
+
+fn run(criterion: &mut Criterion) {
+    // The bars are for one thread. Fails where a pool exists already, which then does the work.
+    if let Err(error) = rayon::ThreadPoolBuilder::new().num_threads(1).build_global() {
+        eprintln!("more than one thread: {error}");
+    }
+    let machine = Machine::measure();
+    curves(criterion, machine);
+    grids(criterion, machine);
+    patches(criterion, machine);
+    many(criterion, machine);
+}
+
+criterion_group!(benches, run);
+criterion_main!(benches);

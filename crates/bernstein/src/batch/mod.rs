@@ -1,0 +1,87 @@
+//! Many evaluations at once, into buffers that the caller owns.
+//!
+//! | what | where |
+//! | --- | --- |
+//! | one curve at many parameters | [`CurveBatch`] |
+//! | patches, one or thousands, on a grid of parameters | [`GridBatch`] |
+//! | one patch at many parameters without order | [`PatchBatch`] |
+//! | many curves or nets cut, raised in degree, taken to the power basis | [`subdivide_many`], [`elevate_many`], [`to_power_many`] |
+//!
+//! **Layout.** Points are arrays of structures, `&mut [DVec3]` and the like, as callers hold them. Values and
+//! each kind of derivatives have a buffer of their own, in the order 1, d, d² and 1; ∂u, ∂v; ∂uu, ∂uv, ∂vv:
+//! `evaluate` takes as many buffers as are wanted. Use the buffers again: writing into fresh memory costs ten
+//! times the arithmetic.
+//!
+//! **Instructions.** The widest registers are chosen at run time: AVX-512, AVX2 with FMA, or none. All of
+//! them do the same fused multiply-adds in the same order (without FMA by `f64::mul_add`, which is then
+//! slow), so the bits are the same on every processor. A point's result depends on its parameters alone, not
+//! on its place, on the length of the batch or the number of threads. With the feature `rayon` (default),
+//! batches of more than 8192 points are spread over rayon's threads; install a pool of one thread where that
+//! is not wanted.
+//!
+//! **Methods.** Chosen by what they cost a degree: the basis takes three multiplications, and one multiply-add a
+//! component; nested multiplication and the linear-time scheme of Woźny and Chudy take two operations a component
+//! and more; Horner's scheme in the quotient t/(1−t), or its inverse, takes one multiply-add a component, and one
+//! division in all.
+//! - Curves take Horner's scheme: up to degree 9 in t/(1−t) for every t, above in whichever quotient is at
+//!   most 1, parameter by parameter.
+//! - Scattered points take it in both parameters up to a total degree of 9, and the basis up to degree 31 in
+//!   each; beyond, or where u or v is 1 exactly, the basis. Above degree 31 they go one by one through
+//!   [`TensorNet::partials`](crate::TensorNet::partials).
+//! - Grids contract the net to one curve a row, and add that up with the basis of each column, made once.
+//!
+//! **Limits.** Any finite parameter, degrees up to [`MAX_DEGREE`](crate::MAX_DEGREE), coordinates up to
+//! 10¹⁵⁰. The error is the crate's, `4(n + 2k + 2)·u·scale`, for parameters outside `[0, 1]` too.
+
+mod blocks;
+mod coefficients;
+mod curve;
+mod grid;
+mod grid_table;
+mod horner;
+mod many;
+mod nets;
+mod normal;
+mod parallel;
+mod patch;
+mod patch_kernel;
+mod quotient;
+mod rational;
+mod simd;
+#[cfg(test)]
+mod tests;
+
+use pulp::bytemuck::Pod;
+
+pub use self::curve::CurveBatch;
+pub use self::grid::GridBatch;
+pub use self::many::{elevate_many, subdivide_many, to_power_many};
+pub use self::patch::PatchBatch;
+use crate::glam::{DVec2, DVec3, DVec4};
+use crate::{BernsteinError, Point};
+
+/// A control point that batches can be made of: `f64`, [`DVec2`], [`DVec3`] and [`DVec4`].
+pub trait BatchPoint: Point + Pod + Send + Sync {
+    /// Numbers a point.
+    const DIMENSION: usize;
+}
+
+impl BatchPoint for f64 {
+    const DIMENSION: usize = 1;
+}
+
+impl BatchPoint for DVec2 {
+    const DIMENSION: usize = 2;
+}
+
+impl BatchPoint for DVec3 {
+    const DIMENSION: usize = 3;
+}
+
+impl BatchPoint for DVec4 {
+    const DIMENSION: usize = 4;
+}
+
+fn check_length(buffer: &'static str, needed: usize, given: usize) -> Result<(), BernsteinError> {
+    if needed == given { Ok(()) } else { Err(BernsteinError::BufferLength { buffer, needed, given }) }
+}
