@@ -1,5 +1,5 @@
 //! Curves with planes, patches with lines: known cases, and points through which the plane or line is laid.
-#![allow(clippy::unwrap_used)] // helpers of tests
+#![allow(clippy::unwrap_used, clippy::panic)] // helpers of tests
 
 use casteljau_shape::bernstein::RootKind;
 use casteljau_shape::geom::glam::{DVec3, DVec4};

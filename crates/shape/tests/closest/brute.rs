@@ -16,6 +16,8 @@ pub fn curve(points: &[DVec4]) -> CurveProjector {
 
 /// Samples along each axis of a patch; a curve gets the square of it.
 const GRID: usize = 24;
+/// Steps of a refinement, at most: on a plateau of rounding it would not end.
+const STEPS: usize = 400;
 /// So many of the best samples are refined.
 const REFINED: usize = 4;
 
@@ -54,13 +56,26 @@ impl Net {
             }
         }
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
-        found.iter().take(REFINED).map(|&start| self.refined(q, start, step).0).fold(f64::INFINITY, f64::min)
+        found
+            .iter()
+            .take(REFINED)
+            .map(|&start| self.refined(q, start, step, STEPS).0)
+            .fold(f64::INFINITY, f64::min)
     }
 
     /// Moves to better neighbours, and halves the step where there is none.
-    pub fn refined(&self, q: DVec3, start: (f64, [f64; 2]), mut step: [f64; 2]) -> (f64, [f64; 2]) {
+    pub fn refined(
+        &self,
+        q: DVec3,
+        start: (f64, [f64; 2]),
+        mut step: [f64; 2],
+        steps: usize,
+    ) -> (f64, [f64; 2]) {
         let (mut least, mut at) = start;
-        while step[0].max(step[1]) > 1e-9 {
+        for _ in 0..steps {
+            if step[0].max(step[1]) <= 1e-9 {
+                break;
+            }
             let mut moved = false;
             for [a, b] in [
                 [-1.0, 0.0],
