@@ -112,6 +112,10 @@ pub fn write_model_file(path: &Path, model: &Model) -> Result<(), IoError> {
         (ModelFormat::Cgb, [NamedShape { shape: Shape::GbPatch(record), .. }]) => {
             cgb::write(record, cgb::DEFAULT_TOLERANCE, out)
         }
+        (ModelFormat::Cgb, [NamedShape { shape, .. }]) => {
+            let what = format!("a shape of kind `{}`, only `gb_patch`", shape.kind());
+            Err(IoError::invalid(Place::default(), Reason::Unwritable { format: "cgb", what }))
+        }
         (ModelFormat::Cgb, shapes) => {
             let what = format!("{} shapes, only one", shapes.len());
             Err(IoError::invalid(Place::default(), Reason::Unwritable { format: "cgb", what }))
