@@ -1,5 +1,7 @@
 //! Binomial coefficients: a table for the degrees in daily use, a recurrence for the others.
 
+use std::borrow::Cow;
+
 /// The largest degree served: `C(500, 250)` is about 10¹⁴⁹, which leaves room for coordinates up to 10¹⁵⁰.
 pub const MAX_DEGREE: usize = 500;
 
@@ -41,6 +43,28 @@ pub fn binomial(n: usize, i: usize) -> f64 {
 /// bits.
 fn next(previous: f64, n: usize, i: usize) -> f64 {
     previous * (n + 1 - i) as f64 / i as f64
+}
+
+/// All coefficients of one degree, each within 1 ulp: from the table, or by the recurrence in twice the
+/// precision.
+pub(crate) fn binomials(n: usize) -> Cow<'static, [f64]> {
+    if let Some(row) = PASCAL.get(n) {
+        return Cow::Borrowed(&row[..=n]);
+    }
+    let mut row = vec![1.0; n.saturating_add(1)];
+    let (mut high, mut low) = (1.0_f64, 0.0);
+    for i in 1..=n / 2 {
+        let (factor, divisor) = ((n + 1 - i) as f64, i as f64);
+        let product = high * factor;
+        let rest = high.mul_add(factor, -product) + low * factor;
+        let quotient = product / divisor;
+        let remainder = quotient.mul_add(-divisor, product) + rest;
+        let correction = remainder / divisor;
+        high = quotient + correction;
+        low = correction - (high - quotient);
+        (row[i], row[n - i]) = (high, high);
+    }
+    Cow::Owned(row)
 }
 
 /// The coefficients of one degree, asked for in ascending order.
@@ -87,5 +111,21 @@ mod tests {
             }
         }
         assert!(binomial(MAX_DEGREE, MAX_DEGREE / 2).is_finite());
+    }
+
+    #[test]
+    fn whole_rows_are_correct_to_the_last_bit_or_next_to_it() {
+        use num_bigint::BigInt;
+        use num_rational::BigRational;
+        use num_traits::Signed;
+        for n in [0, 5, 31, 32, 57, 100, 200, MAX_DEGREE] {
+            let mut exact = BigInt::from(1);
+            for (i, &c) in binomials(n).iter().enumerate() {
+                let got = BigRational::from_float(c).unwrap();
+                let off = (got / BigRational::from_integer(exact.clone()) - BigInt::from(1)).abs();
+                assert!(off <= BigRational::from_float(f64::EPSILON).unwrap(), "C({n}, {i})");
+                exact = exact * (n - i) / (i + 1);
+            }
+        }
     }
 }

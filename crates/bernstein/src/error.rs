@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 /// Why a kernel refused its arguments.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum BernsteinError {
     /// There is no control point at all.
@@ -144,6 +144,72 @@ pub enum BernsteinError {
         from: usize,
         /// The degree asked for.
         to: usize,
+    },
+
+    /// An interval of length zero, where none is allowed.
+    ///
+    /// ```
+    /// use casteljau_bernstein::{BernsteinError, to_power};
+    /// let refused = to_power(&[0.0, 1.0], [2.0, 2.0], &mut [0.0; 2]);
+    /// assert_eq!(refused, Err(BernsteinError::EmptyInterval { start: 2.0 }));
+    /// ```
+    #[error("the interval begins and ends at {start}")]
+    EmptyInterval {
+        /// Both ends.
+        start: f64,
+    },
+
+    /// A tolerance that is not positive.
+    ///
+    /// ```
+    /// use casteljau_bernstein::{BernsteinError, roots};
+    /// assert_eq!(roots(&[-1.0, 1.0], 0.0), Err(BernsteinError::Tolerance { tolerance: 0.0 }));
+    /// ```
+    #[error("the tolerance {tolerance} is not positive")]
+    Tolerance {
+        /// The tolerance given.
+        tolerance: f64,
+    },
+
+    /// A coefficient is not finite.
+    ///
+    /// ```
+    /// use casteljau_bernstein::{BernsteinError, roots};
+    /// let refused = roots(&[-1.0, f64::INFINITY], 1e-9);
+    /// assert_eq!(refused, Err(BernsteinError::Coefficient { place: 1, value: f64::INFINITY }));
+    /// ```
+    #[error("coefficient {place} is {value}")]
+    Coefficient {
+        /// Its place, counted from 0.
+        place: usize,
+        /// Its value.
+        value: f64,
+    },
+
+    /// The polynomial is zero everywhere: every parameter is a root.
+    ///
+    /// ```
+    /// use casteljau_bernstein::{BernsteinError, roots};
+    /// assert_eq!(roots(&[0.0, 0.0], 1e-9), Err(BernsteinError::ZeroPolynomial));
+    /// ```
+    #[error("the polynomial is zero everywhere")]
+    ZeroPolynomial,
+
+    /// A simplex does not have such a vertex, or it was named twice.
+    ///
+    /// ```
+    /// use casteljau_bernstein::{BernsteinError, TriangleNet};
+    /// let net = TriangleNet::new(&[0.0, 1.0, 2.0], 1)?;
+    /// let refused = net.split_edge([0, 3], 0.5, &mut [0.0; 3], &mut [0.0; 3]);
+    /// assert_eq!(refused, Err(BernsteinError::Vertices { vertex: 3, vertices: 3 }));
+    /// # Ok::<(), BernsteinError>(())
+    /// ```
+    #[error("vertex {vertex} named twice, or not one of {vertices} vertices, counted from 0")]
+    Vertices {
+        /// The vertex asked for.
+        vertex: usize,
+        /// The number of vertices that there are.
+        vertices: usize,
     },
 
     /// A degree is above [`MAX_DEGREE`](crate::MAX_DEGREE).

@@ -21,7 +21,7 @@ use crate::{BernsteinError, Point, binomial};
 ///
 /// `out` holds m + 1 points; `work` n + 1, whose content is lost. Error against the exact minimiser: at most
 /// `4(n+2)·κ·u·√Σ|Pᵢ|²` with `κ² = n! (n+1)! (2m+1)! / ((n+m+1)! (n−m)! m! (m+1)!)`; 1/κ is the smallest
-/// singular value of elevation from m to n, so that κ is the condition of the problem itself, and at most 340
+/// singular value of elevation from m to n, so that κ is the condition of the problem itself, and at most 364
 /// for n = 30. Cost: O((n−m)·n).
 ///
 /// ```

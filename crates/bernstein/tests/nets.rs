@@ -354,9 +354,9 @@ fn restriction_of_nets() {
         restrict_tensor(&points, degrees, intervals, &mut out).unwrap();
         let mut truth = exacts(&points);
         let mut scale = absolutes(&truth);
-        for axis in 0..3 {
-            truth = along(&truth, &degrees, axis, |line| restricted_line(line, intervals[axis], false));
-            scale = along(&scale, &degrees, axis, |line| restricted_line(line, intervals[axis], true));
+        for (axis, &interval) in intervals.iter().enumerate() {
+            truth = along(&truth, &degrees, axis, |line| restricted_line(line, interval, false));
+            scale = along(&scale, &degrees, axis, |line| restricted_line(line, interval, true));
         }
         for ((got, truth), scale) in out.iter().zip(&truth).zip(&scale) {
             assert_within(*got, truth, scale, factor(degrees.iter().sum(), 0), "restricted");

@@ -15,19 +15,8 @@ use casteljau_bernstein::{derivative, subdivide, value};
 use casteljau_geom::UNIT_ROUNDOFF;
 use casteljau_geom::glam::DVec3;
 
+use crate::quadrature::gauss;
 use crate::{Curve, ShapeError};
-
-/// Positive half of Gauss's rule of 16 points on [−1, 1]: node, weight.
-const GAUSS: [(f64, f64); 8] = [
-    (0.09501250983763744, 0.1894506104550685),
-    (0.2816035507792589, 0.18260341504492358),
-    (0.45801677765722737, 0.16915651939500254),
-    (0.6178762444026438, 0.14959598881657674),
-    (0.755404408355003, 0.12462897125553388),
-    (0.8656312023878318, 0.09515851168249279),
-    (0.9445750230732326, 0.062253523938647894),
-    (0.9894009349916499, 0.027152459411754096),
-];
 
 /// At most so many pieces are looked at. Cusps take about 60 each at 1e-12; the other pieces are few.
 const MOST_PIECES: usize = 20_000;
@@ -50,9 +39,7 @@ impl Curve {
     /// Source: Gravesen, *Adaptive subdivision and the length and energy of Bézier curves*, 1997 (chord and
     /// polygon).
     pub fn arc_length(&self, relative: f64) -> Result<f64, ShapeError> {
-        if !(relative > 0.0 && relative < 1.0) {
-            return Err(ShapeError::Accuracy { relative });
-        }
+        check_accuracy(relative)?;
         let differences: Vec<DVec3> = self.control_points().windows(2).map(|p| p[1] - p[0]).collect();
         let largest = differences.iter().map(|d| d.abs().max_element()).fold(0.0, f64::max);
         if largest == 0.0 {
@@ -61,14 +48,11 @@ impl Curve {
         // |C′| in units of the longest difference: lengths far from 1 neither overflow nor vanish when squared.
         let factor = self.degree() as f64;
         let hodograph: Vec<DVec3> = differences.iter().map(|&d| d / largest).collect();
-        let sum = Integral::new(relative, hodograph).run();
-        let length = sum.length * factor * largest;
-        let reached = sum.error / sum.length;
-        if reached <= relative {
-            Ok(length)
-        } else {
-            Err(ShapeError::ArcLength { length, reached, relative, pieces: sum.pieces })
-        }
+        let (count, lower) = (hodograph.len(), lower_bound(&hodograph));
+        let sum = Integral::new(relative, Piece::new(hodograph, 1.0), count, lower).run();
+        let Some(sum) = sum else { return Err(ShapeError::Unbounded) };
+        let rounding = (16.0 * (count + 4) as f64 + sum.pieces as f64) * UNIT_ROUNDOFF * sum.length;
+        verdict(relative, factor * largest, &sum, rounding)
     }
 
     /// The integral of the speed by one quadrature rule over the whole curve, `Σ ½wᵢ |C′(½(1 + xᵢ))|`.
@@ -90,7 +74,22 @@ impl Curve {
     }
 }
 
-/// A stretch of the curve: the control vectors of C′ over it, its share of [0, 1], and the integral of |C′|
+/// A stretch of a curve whose length is sought.
+pub(crate) trait Stretch: Sized {
+    /// The length by one application of Gauss's rule.
+    fn gauss(&self) -> f64;
+    /// The two halves.
+    fn halves(&self) -> [Self; 2];
+    /// Lengths of the chord and of the control polygon, below and above the piece's length; `None` where the
+    /// polygon bounds nothing.
+    fn bounds(&self) -> Option<(f64, f64)>;
+    /// Whether the speed is analytic well around the piece, so that Gauss's rule converges.
+    fn is_smooth(&self) -> bool;
+    /// Whether halving has come to its end.
+    fn is_point(&self) -> bool;
+}
+
+/// A stretch of a polynomial curve: the control vectors of C′ over it, its share of [0, 1], and the integral of |C′|
 /// by Gauss's rule.
 struct Piece {
     vectors: Vec<DVec3>,
@@ -101,9 +100,14 @@ struct Piece {
 impl Piece {
     fn new(vectors: Vec<DVec3>, width: f64) -> Self {
         let speed = |t| value(&vectors, t).length();
-        let pair = |&(x, w)| w * (speed(0.5 - 0.5 * x) + speed(0.5 + 0.5 * x));
-        let gauss = 0.5 * width * GAUSS.iter().map(pair).sum::<f64>();
+        let gauss = width * gauss().map(|(s, w)| w * speed(s)).sum::<f64>();
         Self { vectors, width, gauss }
+    }
+}
+
+impl Stretch for Piece {
+    fn gauss(&self) -> f64 {
+        self.gauss
     }
 
     fn halves(&self) -> [Self; 2] {
@@ -115,51 +119,51 @@ impl Piece {
         [left, right].map(|vectors| Self::new(vectors, 0.5 * self.width))
     }
 
-    /// Lengths of the chord and of the control polygon: below and above the piece's length.
-    fn bounds(&self) -> (f64, f64) {
+    fn bounds(&self) -> Option<(f64, f64)> {
         let share = self.width / self.vectors.len() as f64;
         let chord = self.vectors.iter().sum::<DVec3>().length();
         let polygon = self.vectors.iter().map(|d| d.length()).sum::<f64>();
-        (share * chord, share * polygon)
+        Some((share * chord, share * polygon))
     }
 
-    /// Whether the control vectors lie in a ball around their mean of half the radius that would reach 0.
+    // Whether the control vectors lie in a ball around their mean of half the radius that would reach 0.
     fn is_smooth(&self) -> bool {
         let mean = self.vectors.iter().sum::<DVec3>() / self.vectors.len() as f64;
         let radius = self.vectors.iter().map(|&d| d.distance(mean)).fold(0.0, f64::max);
         2.0 * radius <= mean.length()
     }
+
+    fn is_point(&self) -> bool {
+        false
+    }
 }
 
 /// The running sum over the pieces that are settled, and the pieces that are not.
-struct Integral {
+pub(crate) struct Integral<S> {
     /// Relative error allowed to one smooth piece.
     smooth: f64,
     /// Length below which a piece is settled whatever its shape.
     negligible: f64,
-    rounding: f64,
-    open: Vec<Piece>,
-    length: f64,
-    error: f64,
-    pieces: usize,
+    open: Vec<S>,
+    pub(crate) length: f64,
+    /// A bound on the error of the length, but for rounding.
+    pub(crate) error: f64,
+    pub(crate) pieces: usize,
 }
 
-impl Integral {
-    fn new(relative: f64, hodograph: Vec<DVec3>) -> Self {
-        let count = hodograph.len();
+impl<S: Stretch> Integral<S> {
+    /// For a curve with `count` control vectors, of a length of at least `lower`.
+    pub(crate) fn new(relative: f64, whole: S, count: usize, lower: f64) -> Self {
         // |C′|² has at most 2(count − 1) roots, real or nearly so; about as many pieces end up negligible,
         // from both sides.
-        let lower = lower_bound(&hodograph);
-        let mut open = vec![Piece::new(hodograph, 1.0)];
+        let mut open = vec![whole];
         while open.len() * DEGREE_A_PIECE < count {
-            open = open.iter().flat_map(Piece::halves).collect();
+            open = open.iter().flat_map(S::halves).collect();
         }
         open.reverse();
-        let rounding = 16.0 * (count + 4) as f64 * UNIT_ROUNDOFF;
         Self {
             smooth: (0.25 * relative).max(32.0 * UNIT_ROUNDOFF),
             negligible: 0.25 * relative * lower / (4 * count) as f64,
-            rounding,
             open,
             length: 0.0,
             error: 0.0,
@@ -168,35 +172,60 @@ impl Integral {
     }
 
     /// Settles piece after piece, from the start of the curve to its end.
-    fn run(mut self) -> Self {
+    ///
+    /// `None` where a piece has shrunk to a point and its control polygon still bounds nothing.
+    pub(crate) fn run(mut self) -> Option<Self> {
         while let Some(piece) = self.open.pop() {
             self.pieces += 1;
-            let (chord, polygon) = piece.bounds();
-            let spread = (polygon - chord).max(0.0);
-            if spread <= self.negligible
-                || spread <= 4.0 * UNIT_ROUNDOFF * polygon
-                || self.pieces >= MOST_PIECES
-            {
-                self.settle(0.5 * (chord + polygon), 0.5 * spread);
-                continue;
+            let bounds = piece.bounds();
+            if let Some((chord, polygon)) = bounds {
+                let spread = (polygon - chord).max(0.0);
+                if spread <= self.negligible
+                    || spread <= 4.0 * UNIT_ROUNDOFF * polygon
+                    || self.pieces >= MOST_PIECES
+                {
+                    self.settle(0.5 * (chord + polygon), 0.5 * spread);
+                    continue;
+                }
+            } else if piece.is_point() || self.pieces >= MOST_PIECES {
+                return None;
             }
             let halves = piece.halves();
-            let refined = halves[0].gauss + halves[1].gauss;
-            let change = (refined - piece.gauss).abs();
-            if piece.is_smooth() && change <= self.smooth * refined {
+            let refined = halves[0].gauss() + halves[1].gauss();
+            let change = (refined - piece.gauss()).abs();
+            if bounds.is_some() && piece.is_smooth() && change <= self.smooth * refined {
                 self.settle(refined, change);
             } else {
                 let [first, second] = halves;
                 self.open.extend([second, first]);
             }
         }
-        self.error += (self.rounding + self.pieces as f64 * UNIT_ROUNDOFF) * self.length;
-        self
+        Some(self)
     }
 
     fn settle(&mut self, length: f64, error: f64) {
         self.length += length;
         self.error += error;
+    }
+}
+
+pub(crate) fn check_accuracy(relative: f64) -> Result<(), ShapeError> {
+    if relative > 0.0 && relative < 1.0 { Ok(()) } else { Err(ShapeError::Accuracy { relative }) }
+}
+
+/// The length in model units, if it is as certain as was asked for.
+pub(crate) fn verdict<S>(
+    relative: f64,
+    unit: f64,
+    sum: &Integral<S>,
+    rounding: f64,
+) -> Result<f64, ShapeError> {
+    let length = sum.length * unit;
+    let reached = (sum.error + rounding) / sum.length;
+    if reached <= relative {
+        Ok(length)
+    } else {
+        Err(ShapeError::ArcLength { length, reached, relative, pieces: sum.pieces })
     }
 }
 
@@ -224,16 +253,6 @@ fn lower_bound(hodograph: &[DVec3]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// ∫ xᵏ over [−1, 1] is 2/(k+1) for even k ≤ 30, to the rounding of eight terms.
-    #[test]
-    fn gauss_rule_is_exact_to_degree_31() {
-        for k in (0..=30).step_by(2) {
-            let sum: f64 = GAUSS.iter().map(|&(x, w)| 2.0 * w * x.powi(k)).sum();
-            let off = (sum - 2.0 / f64::from(k + 1)).abs();
-            assert!(off <= 8.0 * UNIT_ROUNDOFF, "x^{k}: {off:e}");
-        }
-    }
 
     /// A kink can lie where one application of the rule and two agree by chance, though both are wrong. The
     /// line that turns back at such a place must still get its length.

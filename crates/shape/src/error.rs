@@ -259,6 +259,28 @@ pub enum ShapeError {
         at: Parameters,
     },
 
+    /// The area was not reached to the accuracy asked for.
+    ///
+    /// ```
+    /// use casteljau_shape::{ParametricSurface, Patch, ShapeError, geom::glam::DVec3};
+    /// let line = Patch::new([1, 1], [DVec3::ZERO, DVec3::X, DVec3::ZERO, DVec3::X])?;
+    /// assert!(matches!(line.area(1e-6), Err(ShapeError::Area { .. }))); // it has none
+    /// # Ok::<(), ShapeError>(())
+    /// ```
+    #[error(
+        "area {area:e} is known to {reached:.1e} of itself only, {relative:.1e} was asked for ({cells} cells)"
+    )]
+    Area {
+        /// The area found.
+        area: f64,
+        /// The relative accuracy reached.
+        reached: f64,
+        /// The relative accuracy asked for.
+        relative: f64,
+        /// The number of cells that were looked at.
+        cells: usize,
+    },
+
     /// A kernel refused.
     ///
     /// ```

@@ -13,8 +13,10 @@ pub use casteljau_bernstein as bernstein;
 pub use casteljau_geom as geom;
 
 mod arc_length;
+mod area;
 mod conic;
 mod control_point;
+mod conversion;
 mod curve;
 mod curve_operations;
 mod error;
@@ -23,8 +25,12 @@ mod parametric;
 mod patch;
 mod patch_operations;
 mod power;
+mod quadrature;
 mod quadric;
+mod rational_arc_length;
+mod tight_box;
 mod triangle;
+mod triangle_operations;
 
 pub use control_point::ControlPoint;
 pub use curve::{BezierCurve, Curve, RationalCurve};

@@ -6,6 +6,7 @@ use casteljau_geom::glam::{DVec2, DVec3};
 use casteljau_geom::{Curvatures, CurveJet, FrenetFrame, Interval, Partials, SurfaceJet, TangentPlane};
 
 use crate::ShapeError;
+use crate::area::area;
 
 /// The parameters at which something happened to a shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -237,5 +238,31 @@ pub trait ParametricSurface {
         // In units of the domain, so that no interval makes a derivative look collapsed.
         let jet = self.try_jet(u, v)?.rescaled(self.domain().lengths());
         jet.curvatures().ok_or(ShapeError::NoTangentPlane { at: Parameters::Surface([u, v]) })
+    }
+
+    /// Area `∬ |∂u × ∂v| du dv` over the domain, with an error of at most `relative` times itself.
+    ///
+    /// The domain is cut into cells, worst first, until the changes from Gauss's rule of 16 × 16 points on a cell to
+    /// the same rule on its four quarters, and a bound on the rounding, add up to no more than was asked for. That is an estimate, on the safe side where the surface is smooth over the cells; it is no certificate,
+    /// as that of arc lengths is. Creases, where the normal turns over, cost cells. Cost: about 0.1 ms for a regular
+    /// bicubic patch at 1e-10.
+    ///
+    /// ```
+    /// use casteljau_shape::{ParametricSurface, RationalPatch, geom::glam::DVec3};
+    /// let octant = RationalPatch::sphere_octant(DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z)?;
+    /// assert!((octant.area(1e-12)? - std::f64::consts::FRAC_PI_2).abs() < 2e-12);
+    /// # Ok::<(), casteljau_shape::ShapeError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ShapeError::Accuracy`] unless 0 < `relative` < 1, [`ShapeError::Area`] where the accuracy was not reached,
+    /// as it never is for a surface without area; those of [`try_partials`](Self::try_partials).
+    fn area(&self, relative: f64) -> Result<f64, ShapeError> {
+        let tangents = |[u, v]: [f64; 2]| {
+            let mut out = [DVec3::ZERO; 3];
+            self.try_partials(u, v, &mut out)?;
+            Ok([out[1], out[2]])
+        };
+        area(&tangents, self.domain(), relative)
     }
 }

@@ -218,3 +218,84 @@ proptest! {
         prop_assert!(length >= fine - 1e-10 * length - 1e-12, "no shorter than its chords");
     }
 }
+
+/// Rational curves: closed forms, poles, and agreement with the polynomial ones.
+mod rational {
+    use super::*;
+    use casteljau_geom::glam::DVec4;
+    use casteljau_shape::RationalCurve;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn circles() {
+        for scale in [1e-6, 1.0, 1e6] {
+            for far in [0.0, 1e3] {
+                let center = DVec3::splat(far * scale);
+                let (x, y) = (DVec3::X * scale, DVec3::Y * scale);
+                let whole = RationalCurve::full_circle(center, x, y).unwrap();
+                // Control points far away are rounded: the circle is one to u·far only.
+                let relative = 1e-12 * (1.0 + far);
+                let length = whole.arc_length(relative).unwrap();
+                assert!((length / scale - 2.0 * PI).abs() <= 2.0 * PI * relative, "{scale} {far} {length}");
+                for sweep in [0.01, 1.0, 3.0] {
+                    let sum: f64 = RationalCurve::arc(center, x, y, sweep)
+                        .unwrap()
+                        .iter()
+                        .map(|a| a.arc_length(relative).unwrap())
+                        .sum();
+                    assert!((sum / scale - sweep).abs() <= relative * (1.0 + sweep), "{sum} {sweep}");
+                }
+            }
+        }
+        // A half circle through infinity, and weights that are all negative.
+        let half = RationalCurve::from_homogeneous([
+            DVec4::new(1., 0., 0., 1.),
+            DVec4::Y,
+            DVec4::new(-1., 0., 0., 1.),
+        ])
+        .unwrap();
+        assert!((half.arc_length(1e-12).unwrap() - PI).abs() < 4e-12);
+        let negative =
+            RationalCurve::from_homogeneous(half.control_points().iter().map(|&p| -p).collect::<Vec<_>>())
+                .unwrap();
+        assert!((negative.arc_length(1e-12).unwrap() - PI).abs() < 4e-12);
+    }
+
+    #[test]
+    fn poles_and_points() {
+        let pole = RationalCurve::new(&[DVec3::ZERO, DVec3::X], &[1.0, -1.0]).unwrap();
+        assert_eq!(pole.arc_length(1e-9), Err(ShapeError::Unbounded));
+        let infinite = RationalCurve::from_homogeneous([DVec4::X, DVec4::W]).unwrap();
+        assert_eq!(infinite.arc_length(1e-9), Err(ShapeError::Unbounded));
+        let point = RationalCurve::new(&[DVec3::ONE; 3], &[1.0, 2.0, 3.0]).unwrap();
+        assert_eq!(point.arc_length(1e-9), Err(ShapeError::ZeroLength { control_points: 3 }));
+        assert!(matches!(point.arc_length(0.0), Err(ShapeError::Accuracy { .. })));
+        // A line run through at an uneven pace, there and back in part where a weight is negative.
+        let line = RationalCurve::new(&[DVec3::ZERO, DVec3::X, 2.0 * DVec3::X], &[1.0, 1e3, 1e-3]).unwrap();
+        assert!((line.arc_length(1e-10).unwrap() - 2.0).abs() < 2e-10);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(500))]
+
+        /// The same curve with equal weights, at another pace, and cut in two has the same length.
+        #[test]
+        fn same_length(c in random_curve(), pace in 0.2..5.0, t in 0.1..0.9, weights in vec(0.1..10.0, 9)) {
+            prop_assume!(c.arc_length(1e-10).is_ok());
+            let polynomial = c.arc_length(1e-10).unwrap();
+            let rational = RationalCurve::from(c.clone());
+            let size: f64 = c.control_points().iter().map(|p| p.length()).sum();
+            for r in [rational.clone(), rational.repaced(pace).unwrap()] {
+                let length = r.arc_length(1e-9).unwrap();
+                prop_assert!((length - polynomial).abs() <= 2e-9 * polynomial + 1e-13 * size, "{length} {polynomial}");
+            }
+            let r = RationalCurve::new(c.control_points(), &weights[..c.degree() + 1]).unwrap();
+            let whole = r.arc_length(1e-9).unwrap();
+            let (left, right) = r.split(t).unwrap();
+            let sum: f64 = [left, right].iter().map(|c| c.arc_length(1e-9).unwrap_or(0.0)).sum();
+            prop_assert!((whole - sum).abs() <= 4e-9 * whole, "{} {}", whole, sum);
+            let chords: f64 = (0..1000).map(|k| r.point(f64::from(k) / 1e3).unwrap().distance(r.point(f64::from(k + 1) / 1e3).unwrap())).sum();
+            prop_assert!(whole >= chords * (1.0 - 1e-9) && whole <= chords * 1.01, "{whole} {chords}");
+        }
+    }
+}

@@ -5,8 +5,8 @@ mod support;
 
 use casteljau_geom::glam::{DVec3, DVec4};
 use casteljau_shape::{
-    Curve, ParametricCurve, ParametricSurface, Patch, RationalCurve, RationalPatch, RationalTriangle,
-    ShapeError, Triangle,
+    Curve, ParametricCurve, ParametricSurface, Patch, PowerCurve, RationalCurve, RationalPatch,
+    RationalTriangle, ShapeError, Triangle,
 };
 use serde_json::Value;
 use support::{assert_accurate, cases, flat, net, number, numbers, orders, point, size, weighted_net};
@@ -160,6 +160,67 @@ fn triangles() {
             let triangle = RationalTriangle::new(n, &points, &weights).unwrap();
             assert!(triangle.weights().eq(flat(&case["weights"])));
             check_triangle(&case, &triangle, &points, &weights);
+        }
+    }
+}
+
+#[test]
+fn conversion() {
+    use casteljau_geom::Interval;
+    for case in cases("conversion.json") {
+        let kind = case["kind"].as_str().unwrap();
+        if !kind.starts_with("power_to_bernstein") {
+            continue;
+        }
+        let n = size(&case["degree"]);
+        let input = numbers(&case["input"]);
+        let ends = if case["interval"].is_array() { numbers(&case["interval"]) } else { vec![0.0, 1.0] };
+        let interval = Interval::new(ends[0], ends[1]).unwrap();
+        let power = PowerCurve::new(input.iter().map(|&x| DVec3::X * x).collect::<Vec<_>>()).unwrap();
+        let curve = power.clone().with_interval(interval).to_bezier().unwrap();
+        // Contributions are at most |aᵢ| max(|a|, |b|)ⁱ.
+        let farthest = ends[0].abs().max(ends[1].abs());
+        let scale: f64 = input.iter().enumerate().map(|(i, x)| x.abs() * farthest.powi(i as i32)).sum();
+        for (p, exact) in curve.control_points().iter().zip(numbers(&case["expected"])) {
+            assert_accurate(*p, DVec3::X * exact, n, 0, DVec3::X * scale, kind);
+        }
+        // And back: to 3ⁿ times the largest control point over [0, 1].
+        if case["interval"].is_null() {
+            let back = curve.to_power().unwrap();
+            let largest = curve.control_points().iter().map(|p| p.x.abs()).fold(0.0, f64::max);
+            for (i, (a, exact)) in back.coefficients().iter().zip(&input).enumerate() {
+                let what = format!("{kind}, degree {n}, coefficient {i}");
+                // The contributions to aᵢ are C(n,i)·2ⁱ at most; the control points carry an error of their own.
+                let grown = 3_f64.powi(n as i32) * (largest + 4.0 * scale * (n + 2) as f64);
+                assert_accurate(*a, DVec3::X * *exact, n, 0, DVec3::X * grown, &what);
+            }
+        }
+    }
+}
+
+#[test]
+fn elevation_and_subdivision() {
+    for case in cases("degree_elevation.json").iter().filter(|c| c["kind"] == "rational_curve") {
+        let (n, raise) = (size(&case["degree"]), size(&case["raise"]));
+        let (points, weights) = weighted_net(case);
+        let raised = RationalCurve::new(&points, &weights).unwrap().elevated(raise).unwrap();
+        let exact = net(&case["expected_points"]);
+        let largest = points.iter().fold(DVec3::ZERO, |m, p| m.max(p.abs()));
+        for (i, w) in numbers(&case["expected_weights"]).into_iter().enumerate() {
+            let p = raised.control_points()[i];
+            assert!((p.w - w).abs() <= 1e-15 * w);
+            assert_accurate(p.truncate() / p.w, exact[i], n + raise, 0, 2.0 * largest, "elevated point");
+        }
+    }
+    for case in cases("subdivision.json").iter().filter(|c| c["kind"] == "curve_split") {
+        let input = numbers(&case["coefficients"]);
+        let curve = Curve::new(input.iter().map(|&x| DVec3::X * x).collect::<Vec<_>>()).unwrap();
+        let (left, right) = curve.split(number(&case["t"])).unwrap();
+        let largest = input.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        for (part, key) in [(left, "left"), (right, "right")] {
+            for (p, exact) in part.control_points().iter().zip(numbers(&case[key])) {
+                assert_accurate(*p, DVec3::X * exact, input.len() - 1, 0, DVec3::X * largest, key);
+            }
         }
     }
 }

@@ -78,6 +78,13 @@ const fn rising(r: usize, d: usize) -> usize {
     product
 }
 
+/// The place of a vertex.
+pub(crate) const fn vertex_place<const V: usize>(degree: usize, vertex: usize) -> usize {
+    let mut index = [0; V];
+    index[vertex] = degree;
+    simplex_index(index)
+}
+
 /// All multi-indices of a degree, in the order of the nets.
 ///
 /// ```

@@ -191,7 +191,7 @@ pub(crate) fn partial<P: Point, const V: usize>(
 }
 
 /// `Δ^α P_β`, each Δₐ by repeated differences; `work` has |α| places or more.
-fn difference<P: Point, const V: usize>(
+pub(super) fn difference<P: Point, const V: usize>(
     mut index: [usize; V],
     orders: &[usize],
     work: &mut [P],

@@ -56,6 +56,11 @@ impl<'a, P: Point> WedgeNet<'a, P> {
         simplex_count::<3>(degrees[0]).saturating_mul(degrees[1].saturating_add(1))
     }
 
+    /// The net, if it fits its degrees.
+    pub(crate) fn checked(&self) -> Result<Self, BernsteinError> {
+        Self::new(self.points, self.degrees)
+    }
+
     /// The degrees n of the triangle and o of the height.
     #[must_use]
     pub const fn degrees(&self) -> [usize; 2] {

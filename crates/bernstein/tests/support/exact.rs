@@ -6,7 +6,7 @@
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{One, Signed, ToPrimitive};
+use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::U;
 
@@ -50,10 +50,34 @@ pub fn powers(x: &Q, n: usize) -> Vec<Q> {
     std::iter::successors(Some(Q::one()), |p| Some(p * x)).take(n + 1).collect()
 }
 
+/// Numbers over a common denominator: lists are added and multiplied so, because fractions reduced at every
+/// step are slow.
+fn common(list: &[Q]) -> (Vec<BigInt>, BigInt) {
+    let denominator = list.iter().fold(BigInt::from(1), |common, q| {
+        if (&common % q.denom()).is_zero() {
+            common
+        } else if (q.denom() % &common).is_zero() {
+            q.denom().clone()
+        } else {
+            common * q.denom()
+        }
+    });
+    let numerators = list.iter().map(|q| {
+        if *q.denom() == denominator { q.numer().clone() } else { q.numer() * (&denominator / q.denom()) }
+    });
+    (numerators.collect(), denominator)
+}
+
 /// All `C(n,i) sⁿ⁻ⁱ tⁱ`; s + t need not be 1.
 pub fn basis_of(n: usize, s: &Q, t: &Q) -> Vec<Q> {
-    let (in_s, in_t) = (powers(s, n), powers(t, n));
-    (0..=n).map(|i| choose(n, i) * &in_s[n - i] * &in_t[i]).collect()
+    let (pair, denominator) = common(&[s.clone(), t.clone()]);
+    let powers = |x: &BigInt| -> Vec<BigInt> {
+        std::iter::successors(Some(BigInt::from(1)), |p| Some(p * x)).take(n + 1).collect()
+    };
+    let (in_s, in_t) = (powers(&pair[0]), powers(&pair[1]));
+    let denominator = num_traits::pow(denominator, n);
+    let numerators = (0..=n).map(|i| choose(n, i).numer() * &in_s[n - i] * &in_t[i]);
+    numerators.map(|numerator| Q::new_raw(numerator, denominator.clone())).collect()
 }
 
 /// All Bernstein polynomials of degree n at t.
@@ -67,7 +91,23 @@ pub fn absolute_basis(n: usize, t: &Q) -> Vec<Q> {
 }
 
 pub fn dot(a: &[Q], b: &[Q]) -> Q {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+    let ((a, below_a), (b, below_b)) = (common(a), common(b));
+    Q::new_raw(a.iter().zip(&b).map(|(a, b)| a * b).sum(), below_a * below_b)
+}
+
+/// The product of two polynomials on the interval.
+pub fn product(a: &[Q], b: &[Q]) -> Vec<Q> {
+    let (m, n) = (a.len() - 1, b.len() - 1);
+    let ((a, below_a), (b, below_b)) = (common(a), common(b));
+    let below = below_a * below_b;
+    let mut out = vec![BigInt::from(0); m + n + 1];
+    for (i, a) in a.iter().enumerate() {
+        let a = choose(m, i).numer() * a;
+        for (j, b) in b.iter().enumerate() {
+            out[i + j] += choose(n, j).numer() * &a * b;
+        }
+    }
+    out.into_iter().enumerate().map(|(k, p)| Q::new(p, choose(m + n, k).numer() * &below)).collect()
 }
 
 /// Value of a polynomial on the interval.
@@ -88,12 +128,14 @@ pub fn differentiate(points: &[Q]) -> Vec<Q> {
 /// Affine combinations by a list of pairs (1 − t, t), one level each: the blossom. With pairs taken absolutely,
 /// and points too, its scale.
 pub fn blossom_of(points: &[Q], pairs: &[(Q, Q)]) -> Q {
-    let mut level = points.to_vec();
+    let (mut level, mut below) = common(points);
     for (s, t) in pairs {
-        level = level.windows(2).map(|w| &w[0] * s + &w[1] * t).collect();
+        let (pair, denominator) = common(&[s.clone(), t.clone()]);
+        level = level.windows(2).map(|w| &w[0] * &pair[0] + &w[1] * &pair[1]).collect();
+        below *= denominator;
     }
     assert_eq!(level.len(), 1, "as many arguments as the degree");
-    level.remove(0)
+    Q::new_raw(level.remove(0), below)
 }
 
 pub fn pair(t: &Q) -> (Q, Q) {

@@ -1,0 +1,373 @@
+//! Elevation, reduction, restriction, sums and products over simplices: exact cases and exact arithmetic.
+#![allow(clippy::unwrap_used)] // helpers of tests
+
+mod support;
+
+use casteljau_bernstein::{
+    BernsteinError, SimplexNet, TETRAHEDRON_EIGHTHS, TRIANGLE_QUARTERS, TetrahedronNet, TriangleNet,
+    restrict, simplex_count, simplex_index,
+};
+use num_traits::{One, Zero};
+use support::exact::{Hunter, Q, absolutes, assert_within, choose, dot, exact, exacts, factor, integer};
+use support::simplices::{absolute, basis, blossom, floor, indices};
+use support::{U, assert_accurate, cases, numbers, size};
+
+fn net<const V: usize>(points: &[f64], degree: usize) -> SimplexNet<'_, f64, V> {
+    SimplexNet::new(points, degree).unwrap()
+}
+
+fn magnitudes(points: &[f64]) -> Vec<f64> {
+    points.iter().map(|x| x.abs()).collect()
+}
+
+fn elevated<const V: usize>(points: &[f64], n: usize, to: usize) -> Vec<f64> {
+    let mut out = vec![f64::NAN; simplex_count::<V>(to)];
+    net::<V>(points, n).elevate(to, &mut out).unwrap();
+    out
+}
+
+fn restricted<const V: usize>(points: &[f64], n: usize, corners: [[f64; V]; V]) -> Vec<f64> {
+    let mut out = vec![f64::NAN; points.len()];
+    net::<V>(points, n).restrict(corners, &mut out, &mut vec![f64::NAN; V * points.len()]).unwrap();
+    out
+}
+
+fn golden_elevation<const V: usize>(case: &serde_json::Value) {
+    let (n, to) = (size(&case["degree"]), size(&case["degree"]) + size(&case["raise"]));
+    let points = numbers(&case["coefficients"]);
+    let (out, scale) = (elevated::<V>(&points, n, to), elevated::<V>(&magnitudes(&points), n, to));
+    for ((got, exact), scale) in out.into_iter().zip(numbers(&case["expected"])).zip(scale) {
+        assert_accurate(got, exact, to, 0, scale, &format!("{n} to {to} over {V} vertices"));
+    }
+}
+
+fn golden_restriction<const V: usize>(case: &serde_json::Value) {
+    let n = size(&case["degree"]);
+    let corners: [[f64; V]; V] = std::array::from_fn(|a| numbers(&case["vertices"][a]).try_into().unwrap());
+    let points = numbers(&case["coefficients"]);
+    let (out, scale) = (restricted(&points, n, corners), restricted(&magnitudes(&points), n, corners));
+    for ((got, exact), scale) in out.into_iter().zip(numbers(&case["expected"])).zip(scale) {
+        assert_accurate(got, exact, n, 0, scale, &format!("{} of degree {n}", case["name"]));
+    }
+}
+
+#[test]
+fn exact_cases() {
+    for case in cases("degree_elevation.json").iter().filter(|case| case["kind"] == "simplex") {
+        match size(&case["dim"]) {
+            2 => golden_elevation::<3>(case),
+            _ => golden_elevation::<4>(case),
+        }
+    }
+    for case in cases("subdivision.json") {
+        match case["kind"].as_str().unwrap() {
+            "triangle_subdomain" => golden_restriction::<3>(&case),
+            "tetra_subdomain" => golden_restriction::<4>(&case),
+            _ => {}
+        }
+    }
+}
+
+fn elevation<const V: usize>(seed: u64, rounds: usize) {
+    let mut hunter = Hunter::new(seed);
+    for round in 0..rounds {
+        let (n, by) = if round == 0 { (24 / V, 2) } else { (hunter.below(6), hunter.below(5)) };
+        let points = hunter.numbers(simplex_count::<V>(n));
+        let (q, sizes) = (exacts(&points), absolutes(&exacts(&points)));
+        let out = elevated::<V>(&points, n, n + by);
+        let below = indices(V, n);
+        for (index, got) in indices(V, n + by).iter().zip(out) {
+            let weights: Vec<Q> = below
+                .iter()
+                .map(|b| {
+                    let ways = index.iter().zip(b).map(|(&c, &b)| choose(c, b));
+                    ways.fold(Q::one(), |w, c| w * c) / choose(n + by, n)
+                })
+                .collect();
+            let scale = dot(&weights, &sizes);
+            assert_within(got, &dot(&weights, &q), &scale, (V + 1) * by, "elevation");
+        }
+    }
+}
+
+#[test]
+fn elevation_is_exact_to_its_bound() {
+    elevation::<3>(61, 100);
+    elevation::<4>(62, 20);
+}
+
+fn restriction<const V: usize>(seed: u64, rounds: usize, most: usize) {
+    let mut hunter = Hunter::new(seed);
+    for _ in 0..rounds {
+        let n = hunter.below(most + 1);
+        let points = hunter.numbers(simplex_count::<V>(n));
+        let corners: [[f64; V]; V] = std::array::from_fn(|_| hunter.barycentric::<V>());
+        let (q, sizes) = (exacts(&points), absolutes(&exacts(&points)));
+        let check = |corners: &[[f64; V]; V], got: &[f64]| {
+            for (index, &got) in indices(V, n).iter().zip(got) {
+                let of = |size: bool| -> Vec<Vec<Q>> {
+                    let corners =
+                        index.iter().zip(corners).flat_map(|(&b, c)| std::iter::repeat_n(exacts(c), b));
+                    corners.map(|c| if size { absolute(&c) } else { c }).collect()
+                };
+                let scale = blossom(&sizes, n, &of(true)) + floor(&q);
+                assert_within(got, &blossom(&q, n, &of(false)), &scale, factor(n, 0), "restriction");
+            }
+        };
+        check(&corners, &restricted(&points, n, corners));
+
+        // A split is a restriction with one vertex replaced, and so is that of an edge.
+        let whole: [[f64; V]; V] =
+            std::array::from_fn(|a| std::array::from_fn(|b| f64::from(u8::from(a == b))));
+        let mut parts = vec![f64::NAN; V * points.len()];
+        net::<V>(&points, n).split_at(corners[0], &mut parts).unwrap();
+        for (vertex, part) in parts.chunks(points.len()).enumerate() {
+            let mut replaced = whole;
+            replaced[vertex] = corners[0];
+            check(&replaced, part);
+            assert_eq!(part, restricted(&points, n, replaced), "to the bit");
+        }
+        let (a, t) = (hunter.below(V), hunter.parameter());
+        let b = (a + 1 + hunter.below(V - 1)) % V;
+        let (mut near_a, mut near_b) = (points.clone(), points.clone());
+        net::<V>(&points, n).split_edge([a, b], t, &mut near_a, &mut near_b).unwrap();
+        let mut point = [0.0; V];
+        (point[a], point[b]) = (1.0 - t, t);
+        for (vertex, part) in [(b, near_a), (a, near_b)] {
+            let mut replaced = whole;
+            replaced[vertex] = point;
+            check(&replaced, &part);
+        }
+    }
+}
+
+#[test]
+fn restriction_is_the_blossom() {
+    restriction::<2>(70, 100, 8);
+    restriction::<3>(71, 50, 5);
+    restriction::<4>(72, 12, 3);
+}
+
+#[test]
+fn restriction_over_two_vertices_is_that_of_the_interval() {
+    let points: Vec<f64> = (0..20).map(|i| f64::from(i * i % 7) - 2.0).collect();
+    let mut out = vec![0.0; 20];
+    restrict(&points, [0.25, 0.75], &mut out).unwrap();
+    for (a, b) in out.into_iter().zip(restricted(&points, 19, [[0.75, 0.25], [0.25, 0.75]])) {
+        assert_accurate(a, b, 2 * 19, 0, 5.0, "both ways");
+    }
+}
+
+/// Parts of a uniform split meet with the same bits, in a common edge or face whatever its place in each.
+#[test]
+fn uniform_splits_meet() {
+    let mut hunter = Hunter::new(81);
+    let n = 7;
+    let points: Vec<f64> = (0..simplex_count::<4>(n)).map(|_| hunter.unit()).collect();
+    let of_triangle = &points[..simplex_count::<3>(n)];
+    let mut quarters = vec![0.0; 4 * of_triangle.len()];
+    let mut scratch = vec![0.0; 4 * points.len()];
+    TriangleNet::new(of_triangle, n).unwrap().split_uniform(&mut quarters, &mut scratch).unwrap();
+    let mut eighths = vec![0.0; 8 * points.len()];
+    TetrahedronNet::new(&points, n).unwrap().split_uniform(&mut eighths, &mut scratch).unwrap();
+    let met =
+        meeting::<3>(&TRIANGLE_QUARTERS, &quarters, n) + meeting::<4>(&TETRAHEDRON_EIGHTHS, &eighths, n);
+    assert!(met > 100, "{met}");
+}
+
+/// The number of control points that two parts have in common; each is compared.
+fn meeting<const V: usize>(parts: &[[[f64; V]; V]], nets: &[f64], n: usize) -> usize {
+    let count = simplex_count::<V>(n);
+    let mut met = 0;
+    for (x, first) in parts.iter().zip(nets.chunks(count)) {
+        for (y, second) in parts.iter().zip(nets.chunks(count)) {
+            for index in indices(V, n) {
+                // The same arguments of the blossom, if the second part has the corners that are used.
+                let mut other = [0; V];
+                let found = index.iter().enumerate().filter(|(_, b)| **b > 0).all(|(corner, &b)| {
+                    y.iter().position(|c| *c == x[corner]).is_some_and(|place| {
+                        other[place] = b;
+                        true
+                    })
+                });
+                if found {
+                    let index: [usize; V] = index.try_into().unwrap();
+                    assert_eq!(first[simplex_index(index)], second[simplex_index(other)]);
+                    met += 1;
+                }
+            }
+        }
+    }
+    met
+}
+
+fn products<const V: usize>(seed: u64, rounds: usize) {
+    let mut hunter = Hunter::new(seed);
+    for round in 0..rounds {
+        let (n, m) = if round == 0 { (8, 7) } else { (hunter.below(6), hunter.below(6)) };
+        let (p, f) = (hunter.numbers(simplex_count::<V>(n)), hunter.numbers(simplex_count::<V>(m)));
+        let (of_p, of_f) = (exacts(&p), exacts(&f));
+        let (mut out, mut swapped) =
+            (vec![f64::NAN; simplex_count::<V>(n + m)], vec![f64::NAN; simplex_count::<V>(n + m)]);
+        net::<V>(&p, n).product(&net(&f, m), &mut out).unwrap();
+        net::<V>(&f, m).product(&net(&p, n), &mut swapped).unwrap();
+        let (in_p, in_f) = (indices(V, n), indices(V, m));
+        for ((index, got), swapped) in indices(V, n + m).iter().zip(out).zip(swapped) {
+            let (mut truth, mut scale) = (Q::zero(), Q::zero());
+            for (b, x) in in_p.iter().zip(&of_p) {
+                let Some(rest) =
+                    index.iter().zip(b).map(|(g, b)| g.checked_sub(*b)).collect::<Option<Vec<_>>>()
+                else {
+                    continue;
+                };
+                let place = in_f.binary_search_by(|other| rest.cmp(other)).unwrap();
+                let weight = index.iter().zip(b).fold(Q::one(), |w, (&g, &b)| w * choose(g, b));
+                let term = x * &of_f[place] * weight / choose(n + m, n);
+                scale += num_traits::Signed::abs(&term);
+                truth += term;
+            }
+            let scale = scale + exact(f64::MIN_POSITIVE) / exact(U);
+            assert_within(got, &truth, &scale, factor(n + m, 0), "product");
+            assert_within(swapped, &truth, &scale, factor(n + m, 0), "product the other way");
+        }
+        // The sum, in the larger degree: values agree.
+        let degree = n.max(m);
+        let mut sum = vec![f64::NAN; simplex_count::<V>(degree)];
+        net::<V>(&p, n).sum(&net(&f, m), &mut sum).unwrap();
+        let lambda = exacts(&hunter.barycentric::<V>());
+        let value = |points: &[Q], n: usize, lambda: &[Q]| dot(&basis(n, lambda), points);
+        let total: Q = lambda.iter().sum();
+        if total == Q::one() {
+            let truth = value(&of_p, n, &lambda) + value(&of_f, m, &lambda);
+            let l = absolute(&lambda);
+            let size: Q = l.iter().sum();
+            let outside = num_traits::pow(size, degree);
+            let scale = (value(&absolutes(&of_p), n, &l) + value(&absolutes(&of_f), m, &l)) * outside;
+            let off = num_traits::Signed::abs(&(value(&exacts(&sum), degree, &lambda) - truth));
+            assert!(off <= scale * exact(U) * integer(factor(degree + V, 0)), "sum");
+        }
+    }
+}
+
+#[test]
+fn products_are_exact_to_their_bound() {
+    products::<2>(90, 300);
+    products::<3>(91, 150);
+    products::<4>(92, 40);
+}
+
+/// Powers of 1 stay 1 to degree 200, and points of 10¹⁰⁰ do not overflow.
+#[test]
+fn products_to_degree_200() {
+    let ones = vec![1e100; simplex_count::<3>(100)];
+    let mut out = vec![0.0; simplex_count::<3>(200)];
+    net::<3>(&ones, 100).product(&net(&ones, 100), &mut out).unwrap();
+    for got in out {
+        assert_accurate(got / 1e100, 1e100, 200, 0, 1e100, "1·1");
+    }
+    let few = vec![1.0; simplex_count::<4>(2)];
+    let many = vec![1.0; simplex_count::<4>(58)];
+    let mut out = vec![0.0; simplex_count::<4>(60)];
+    net::<4>(&many, 58).product(&net(&few, 2), &mut out).unwrap();
+    for got in out {
+        assert_accurate(got, 1.0, 60, 0, 1.0, "1·1");
+    }
+}
+
+fn reduction<const V: usize>(seed: u64, pairs: &[(usize, usize)]) {
+    let mut hunter = Hunter::new(seed);
+    for &(from, to) in pairs {
+        let low: Vec<f64> = (0..simplex_count::<V>(to)).map(|_| hunter.unit() * 4.0 - 2.0).collect();
+        let high = elevated::<V>(&low, to, from);
+        let mut out = vec![f64::NAN; low.len()];
+        let mut scratch = vec![f64::NAN; 4 * high.len()];
+        let bound = net::<V>(&high, from).reduce(to, &mut out, &mut scratch).unwrap();
+        // The square of the smallest singular value of elevation, from m to n on the interval.
+        let condition =
+            (to + 1..=from).fold(1.0, |c, j| c / (1.0 - (to * (to + 1)) as f64 / (j * (j + 1)) as f64));
+        let allowed = (4 * (from + 2)) as f64 * U * condition * (2.0 * (high.len() as f64).sqrt());
+        let off = low.iter().zip(&out).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
+        assert!(off <= allowed, "{from} to {to} over {V}: off {off:e}, allowed {allowed:e}");
+        assert!(bound <= allowed, "{from} to {to}: bound {bound:e}");
+
+        // Any other polynomial: the bound holds, vertices stay, and neighbours of the answer are farther away.
+        let any: Vec<f64> = (0..high.len()).map(|_| hunter.unit()).collect();
+        let bound = net::<V>(&any, from).reduce(to, &mut out, &mut scratch).unwrap();
+        let distance = |q: &[f64]| -> (f64, f64) {
+            let again = elevated::<V>(q, to, from);
+            let off = again.iter().zip(&any).map(|(a, b)| (a - b).abs());
+            (off.clone().fold(0.0, f64::max), off.map(|x| x * x).sum())
+        };
+        let (largest, squares) = distance(&out);
+        assert!(largest <= bound && bound <= largest * (1.0 + 1e-12) + 1e-14, "{largest} {bound}");
+        for (place, index) in indices(V, to).iter().enumerate() {
+            if let Some(vertex) = index.iter().position(|&b| b == to && to > 0) {
+                let mut corner = [0; V];
+                corner[vertex] = from;
+                assert_eq!(out[place], any[simplex_index(corner)], "vertex {vertex}");
+                continue;
+            }
+            for shift in [1e-3, -1e-3] {
+                let mut moved = out.clone();
+                moved[place] += shift;
+                assert!(distance(&moved).1 > squares, "{from} to {to}: point {place} is not at the minimum");
+            }
+        }
+        for _ in 0..20 {
+            let mut lambda = [0.0; V];
+            lambda.fill_with(|| hunter.unit());
+            let sum: f64 = lambda.iter().sum();
+            lambda = lambda.map(|l| l / sum);
+            let off = (net::<V>(&any, from).value(lambda) - net::<V>(&out, to).value(lambda)).abs();
+            assert!(off <= bound, "{off} {bound}");
+        }
+    }
+}
+
+#[test]
+fn reduction_is_exact_where_it_can_be_and_the_nearest_elsewhere() {
+    reduction::<2>(100, &[(3, 2), (10, 5), (20, 10)]);
+    reduction::<3>(101, &[(1, 0), (2, 1), (3, 2), (5, 4), (8, 3), (12, 8), (20, 18)]);
+    reduction::<4>(102, &[(2, 1), (3, 2), (5, 3), (7, 4)]);
+}
+
+#[test]
+fn wrong_lengths_and_degrees_are_refused() {
+    let points = [0.0; 6];
+    let net = TriangleNet::new(&points, 2).unwrap();
+    let length = |buffer, needed, given| Err(BernsteinError::BufferLength { buffer, needed, given });
+    assert_eq!(net.elevate(3, &mut [0.0; 9]), length("out", 10, 9));
+    assert_eq!(net.elevate(1, &mut [0.0; 3]), Err(BernsteinError::ElevatedDegree { from: 2, to: 1 }));
+    assert_eq!(
+        net.elevate(501, &mut []),
+        Err(BernsteinError::Degree { degree: 501, limit: casteljau_bernstein::MAX_DEGREE })
+    );
+    let refused = net.reduce(3, &mut [0.0; 10], &mut [0.0; 24]);
+    assert_eq!(refused, Err(BernsteinError::ReducedDegree { from: 2, to: 3 }));
+    let refused = net.reduce(1, &mut [0.0; 3], &mut [0.0; 23]);
+    assert_eq!(refused.err(), length("scratch", 24, 23).err());
+    let corners = TRIANGLE_QUARTERS[0];
+    assert_eq!(net.restrict(corners, &mut [0.0; 5], &mut [0.0; 18]), length("out", 6, 5));
+    assert_eq!(net.restrict(corners, &mut [0.0; 6], &mut [0.0; 17]), length("scratch", 18, 17));
+    assert_eq!(net.split_at([1.0, 0.0, 0.0], &mut [0.0; 12]), length("out", 18, 12));
+    assert_eq!(
+        net.split_edge([1, 1], 0.5, &mut [0.0; 6], &mut [0.0; 6]),
+        Err(BernsteinError::Vertices { vertex: 1, vertices: 3 })
+    );
+    assert_eq!(net.product(&net, &mut [0.0; 14]), length("out", 15, 14));
+    assert_eq!(net.sum(&net, &mut [0.0; 7]), length("out", 6, 7));
+    assert_eq!(net.scheme([0.0; 3], &mut [0.0; 9]), length("out", 10, 9));
+    let refused = net.blossom(&[[0.0; 3]], &mut [0.0; 6]);
+    assert_eq!(refused.err(), length("arguments", 2, 1).err());
+    // A net that does not fit its degree gives meaningless values, but no panic.
+    let broken = TriangleNet::validated(&points[..2], 4);
+    assert_eq!(broken.value([0.2, 0.3, 0.5]), 0.0);
+    broken.partials([0.2, 0.3, 0.5], &mut [0.0; 7]);
+    assert!(broken.split_at([0.2, 0.3, 0.5], &mut [0.0; 45]).is_ok());
+    let broken = TriangleNet::validated(&points[..2], usize::MAX);
+    assert!(broken.value([0.2, 0.3, 0.5]).is_nan());
+    assert!(broken.split_at([0.2, 0.3, 0.5], &mut [0.0; 45]).is_err());
+    assert!(broken.scheme([0.2, 0.3, 0.5], &mut [0.0; 45]).is_err());
+    assert!(broken.product(&broken, &mut [0.0; 45]).is_err());
+    assert!(broken.de_casteljau([0.2, 0.3, 0.5], &mut [0.0; 45]).is_nan());
+}

@@ -1,0 +1,320 @@
+//! The algebra of wedges, against that of triangles and intervals and against values.
+#![allow(clippy::unwrap_used)] // helpers of tests
+
+mod support;
+
+use casteljau_bernstein::{
+    BernsteinError, TRIANGLE_QUARTERS, TensorNet, TriangleNet, WedgeNet, simplex_count, wedge_from_power,
+};
+use num_traits::Zero;
+use support::exact::{Hunter, Q, absolutes, assert_within, choose, dot, exact, exacts, factor, factorial};
+use support::simplices::{indices, multinomial};
+use support::{U, assert_accurate};
+
+/// A random wedge, its degrees at most `most`.
+fn wedge(hunter: &mut Hunter, most: usize) -> ([usize; 2], Vec<f64>) {
+    let degrees = [hunter.below(most + 1), hunter.below(most + 1)];
+    (degrees, hunter.numbers(WedgeNet::<f64>::count(degrees)))
+}
+
+fn largest(points: &[f64]) -> f64 {
+    points.iter().fold(0.0, |m: f64, p| m.max(p.abs()))
+}
+
+/// A point of the wedge.
+fn inside(hunter: &mut Hunter) -> ([f64; 3], f64) {
+    let (a, b) = (hunter.unit(), hunter.unit());
+    let lambda = if a + b > 1.0 { [1.0 - a, 1.0 - b, a + b - 1.0] } else { [a, b, 1.0 - a - b] };
+    (lambda, hunter.unit())
+}
+
+#[test]
+fn elevation_and_reduction() {
+    let mut hunter = Hunter::new(300);
+    for _ in 0..300 {
+        let ([n, o], points) = wedge(&mut hunter, 5);
+        let net = WedgeNet::new(&points, [n, o]).unwrap();
+        let to = [n + hunter.below(4), o + hunter.below(4)];
+        let mut high = vec![f64::NAN; WedgeNet::<f64>::count(to)];
+        net.elevate(to, &mut high).unwrap();
+        let again = WedgeNet::new(&high, to).unwrap();
+        let size = largest(&points);
+        for _ in 0..5 {
+            let (lambda, w) = inside(&mut hunter);
+            assert_accurate(
+                again.value(lambda, w),
+                net.value(lambda, w),
+                3 * (to[0] + to[1]),
+                0,
+                size,
+                "elevated",
+            );
+        }
+        assert_eq!(again.value([0.0, 1.0, 0.0], 1.0), net.value([0.0, 1.0, 0.0], 1.0));
+        let mut low = vec![f64::NAN; points.len()];
+        let mut scratch = vec![f64::NAN; (to[1] + 7) * simplex_count::<3>(to[0]) + to[1] + 1];
+        let bound = again.reduce([n, o], &mut low, &mut scratch).unwrap();
+        // Conditions of elevation from 5 to 8, squared, one for each direction.
+        let condition = |from: usize, to: usize| -> f64 {
+            (from + 1..=to).map(|j| 1.0 / (1.0 - (from * (from + 1)) as f64 / (j * (j + 1)) as f64)).product()
+        };
+        let allowed = 4.0
+            * (to[0] + to[1] + 2) as f64
+            * U
+            * condition(n, to[0])
+            * condition(o, to[1])
+            * size
+            * (high.len() as f64).sqrt();
+        for (a, b) in low.iter().zip(&points) {
+            assert!((a - b).abs() <= allowed, "{n} {o} to {to:?}: {a} {b}, allowed {allowed:e}");
+        }
+        assert!(bound <= allowed);
+
+        // Lower degrees than it has: the bound holds.
+        let to = [hunter.below(n + 1), hunter.below(o + 1)];
+        let mut low = vec![f64::NAN; WedgeNet::<f64>::count(to)];
+        let bound = net.reduce(to, &mut low, &mut scratch).unwrap();
+        let low = WedgeNet::new(&low, to).unwrap();
+        for _ in 0..5 {
+            let (lambda, w) = inside(&mut hunter);
+            let off = (low.value(lambda, w) - net.value(lambda, w)).abs();
+            assert!(off <= bound + 4.0 * (n + o + 2) as f64 * U * size, "{off:e} {bound:e}");
+        }
+    }
+}
+
+#[test]
+fn parts_are_the_whole() {
+    let mut hunter = Hunter::new(310);
+    for _ in 0..200 {
+        let ([n, o], points) = wedge(&mut hunter, 5);
+        let net = WedgeNet::new(&points, [n, o]).unwrap();
+        let count = points.len();
+        let mut scratch = vec![f64::NAN; 5 * simplex_count::<3>(n)];
+        let part = |part: &[f64], corners: [[f64; 3]; 3], [a, b]: [f64; 2], hunter: &mut Hunter| {
+            let (lambda, w) = inside(hunter);
+            let there: [f64; 3] =
+                std::array::from_fn(|c| (0..3).map(|corner| lambda[corner] * corners[corner][c]).sum());
+            let height = a * (1.0 - w) + b * w;
+            // Parameters are rounded on the way, by 4u of |∂p| ≤ 2(n+o)·largest.
+            let got = WedgeNet::new(part, [n, o]).unwrap().value(lambda, w);
+            assert_accurate(got, net.value(there, height), 8 * (n + o) + 8, 0, largest(&points), "part");
+        };
+        let whole = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let corners = std::array::from_fn(|_| inside(&mut hunter).0);
+        let interval = [hunter.unit(), hunter.unit()];
+        let mut out = vec![f64::NAN; count];
+        net.restrict(corners, interval, &mut out, &mut scratch).unwrap();
+        part(&out, corners, interval, &mut hunter);
+        let w = hunter.unit();
+        let (mut below, mut above) = (vec![f64::NAN; count], vec![f64::NAN; count]);
+        net.split_height(w, &mut below, &mut above).unwrap();
+        part(&below, whole, [0.0, w], &mut hunter);
+        part(&above, whole, [w, 1.0], &mut hunter);
+        let mut three = vec![f64::NAN; 3 * count];
+        net.split_at(corners[0], &mut three).unwrap();
+        for (vertex, third) in three.chunks(count).enumerate() {
+            let mut replaced = whole;
+            replaced[vertex] = corners[0];
+            part(third, replaced, [0.0, 1.0], &mut hunter);
+        }
+        net.split_edge([2, 0], w, &mut below, &mut above).unwrap();
+        let point = [w, 0.0, 1.0 - w];
+        part(&below, [point, whole[1], whole[2]], [0.0, 1.0], &mut hunter);
+        part(&above, [whole[0], whole[1], point], [0.0, 1.0], &mut hunter);
+        let mut eight = vec![f64::NAN; 8 * count];
+        net.split_uniform(&mut eight, &mut scratch).unwrap();
+        for (number, eighth) in eight.chunks(count).enumerate() {
+            let half = if number < 4 { [0.0, 0.5] } else { [0.5, 1.0] };
+            part(eighth, TRIANGLE_QUARTERS[number % 4], half, &mut hunter);
+        }
+    }
+}
+
+#[test]
+fn products_and_sums() {
+    let mut hunter = Hunter::new(320);
+    for _ in 0..60 {
+        let ([n, o], p) = wedge(&mut hunter, 4);
+        let ([m, l], f) = wedge(&mut hunter, 3);
+        let (first, second) = (WedgeNet::new(&p, [n, o]).unwrap(), WedgeNet::new(&f, [m, l]).unwrap());
+        let mut out = vec![f64::NAN; WedgeNet::<f64>::count([n + m, o + l])];
+        first.product(&second, &mut out).unwrap();
+        let (of_p, of_f, in_p, in_f) = (exacts(&p), exacts(&f), indices(3, n), indices(3, m));
+        for (place, index) in indices(3, n + m).iter().enumerate() {
+            for k in 0..=o + l {
+                let (mut truth, mut scale) = (Q::zero(), exact(f64::MIN_POSITIVE) / exact(U));
+                for (b, own) in in_p.iter().enumerate() {
+                    let rest: Option<Vec<usize>> =
+                        index.iter().zip(own).map(|(g, b)| g.checked_sub(*b)).collect();
+                    let Some(rest) = rest else { continue };
+                    let other = in_f.binary_search_by(|other| rest.cmp(other)).unwrap();
+                    let ways: Q = index.iter().zip(own).map(|(&g, &b)| choose(g, b)).product();
+                    for i in k.saturating_sub(l)..=o.min(k) {
+                        let weight =
+                            &ways * choose(o, i) * choose(l, k - i) / choose(o + l, k) / choose(n + m, n);
+                        let term = &of_p[b * (o + 1) + i] * &of_f[other * (l + 1) + k - i] * weight;
+                        scale += num_traits::Signed::abs(&term);
+                        truth += term;
+                    }
+                }
+                let got = out[place * (o + l + 1) + k];
+                assert_within(got, &truth, &scale, factor(n + m + o + l, 0), "product");
+            }
+        }
+        let degrees = [n.max(m), o.max(l)];
+        let mut sum = vec![f64::NAN; WedgeNet::<f64>::count(degrees)];
+        let mut work = sum.clone();
+        first.sum(&second, &mut sum, &mut work).unwrap();
+        let (lambda, w) = inside(&mut hunter);
+        let got = WedgeNet::new(&sum, degrees).unwrap().value(lambda, w);
+        let scale = largest(&p) + largest(&f);
+        assert_accurate(got, first.value(lambda, w) + second.value(lambda, w), 24, 0, scale, "sum");
+    }
+    // With no height it is the product over the triangle; with a constant triangle that on the interval.
+    let (p, f) = ([1.0, 2.0, -3.0], [0.5, -1.0, 4.0]);
+    let (mut a, mut b) = ([0.0; 6], [0.0; 6]);
+    WedgeNet::new(&p, [1, 0]).unwrap().product(&WedgeNet::new(&f, [1, 0]).unwrap(), &mut a).unwrap();
+    TriangleNet::new(&p, 1).unwrap().product(&TriangleNet::new(&f, 1).unwrap(), &mut b).unwrap();
+    assert_eq!(a, b);
+}
+
+#[test]
+fn power_basis_and_moments() {
+    let mut hunter = Hunter::new(330);
+    for _ in 0..200 {
+        let ([n, o], points) = wedge(&mut hunter, 4);
+        let net = WedgeNet::new(&points, [n, o]).unwrap();
+        let mut scratch = vec![f64::NAN; 2 * simplex_count::<3>(n)];
+        let (mut c, mut again) = (vec![f64::NAN; points.len()], vec![f64::NAN; points.len()]);
+        net.to_power(&mut c, &mut scratch).unwrap();
+        wedge_from_power(&c, [n, o], &mut again, &mut scratch).unwrap();
+        // Coefficients are at most 5ⁿ 3ᵒ times the points, and weights of the way back at most 1.
+        let size = largest(&points) * 5_f64.powi(n as i32) * 3_f64.powi(o as i32);
+        for (a, b) in again.iter().zip(&points) {
+            assert_accurate(*a, *b, 2 * (n + o), 0, size, "there and back");
+        }
+        let (lambda, w) = inside(&mut hunter);
+        let mut value = 0.0;
+        for (orders, row) in indices(3, n).iter().zip(c.chunks(o + 1)) {
+            let monomial = lambda[0].powi(orders[1] as i32) * lambda[1].powi(orders[2] as i32);
+            value += row.iter().enumerate().map(|(k, c)| c * monomial * w.powi(k as i32)).sum::<f64>();
+        }
+        assert_accurate(value, net.value(lambda, w), 4 * (n + o) + c.len(), 0, size, "monomials");
+
+        let exponents = [hunter.below(3), hunter.below(3), hunter.below(3)];
+        let d = hunter.below(3);
+        let k = exponents.iter().sum::<usize>();
+        let weights: Vec<Q> = indices(3, n)
+            .iter()
+            .flat_map(|index| {
+                let powers = index.iter().zip(exponents).map(|(b, e)| factorial(b + e));
+                let in_triangle = multinomial(index) * powers.product::<Q>() / factorial(n + k + 2);
+                (0..=o).map(move |l| {
+                    &in_triangle * choose(o, l) * factorial(l + d) * factorial(o - l) / factorial(o + d + 1)
+                })
+            })
+            .collect();
+        let q = exacts(&points);
+        let scale = dot(&weights, &absolutes(&q)) + exact(f64::MIN_POSITIVE) / exact(U);
+        assert_within(net.moment(exponents, d), &dot(&weights, &q), &scale, 4 * (k + d) + 8, "moment");
+        assert_eq!(net.integral(), net.moment([0; 3], 0));
+    }
+}
+
+#[test]
+fn faces_and_orientation() {
+    let mut hunter = Hunter::new(340);
+    for _ in 0..200 {
+        let ([n, o], points) = wedge(&mut hunter, 6);
+        let net = WedgeNet::new(&points, [n, o]).unwrap();
+        let (lambda, w) = inside(&mut hunter);
+        let mut triangle = vec![f64::NAN; simplex_count::<3>(n)];
+        for (top, height) in [(false, 0.0), (true, 1.0)] {
+            net.triangle_face(top, &mut triangle).unwrap();
+            assert_eq!(TriangleNet::new(&triangle, n).unwrap().value(lambda), net.value(lambda, height));
+        }
+        let mut quad = vec![f64::NAN; (n + 1) * (o + 1)];
+        let size = largest(&points);
+        for [a, b] in [[0, 1], [1, 2], [2, 0]] {
+            net.quad_face([a, b], &mut quad).unwrap();
+            let mut on_edge = [0.0; 3];
+            (on_edge[a], on_edge[b]) = (1.0 - w, w);
+            let got = TensorNet::new(&quad, [n, o]).unwrap().value(w, 0.375);
+            assert_accurate(got, net.value(on_edge, 0.375), 2 * (n + o + 1), 0, size, "quad");
+        }
+        let mut turned = vec![f64::NAN; points.len()];
+        net.reoriented([2, 0, 1], true, &mut turned).unwrap();
+        let got = WedgeNet::new(&turned, [n, o]).unwrap().value([lambda[2], lambda[0], lambda[1]], 1.0 - w);
+        // 1 − w is rounded: |∂p/∂w| ≤ 2o·size.
+        assert_accurate(got, net.value(lambda, w), 3 * (n + o + 1), 0, size, "turned");
+    }
+}
+
+#[test]
+fn bounds() {
+    let mut hunter = Hunter::new(350);
+    for _ in 0..15 {
+        let degrees = [hunter.below(4), hunter.below(4)];
+        let points: Vec<f64> = (0..WedgeNet::<f64>::count(degrees)).map(|_| hunter.unit() - 0.5).collect();
+        let net = WedgeNet::new(&points, degrees).unwrap();
+        let extremes = net.extremes(1e-5);
+        for [a, b] in [extremes.min, extremes.max] {
+            assert!(a <= b && b - a <= 1e-5);
+        }
+        let mut found = [f64::INFINITY, f64::NEG_INFINITY];
+        for _ in 0..20_000 {
+            let (lambda, w) = inside(&mut hunter);
+            let value = net.value(lambda, w);
+            found = [found[0].min(value), found[1].max(value)];
+        }
+        assert!(extremes.min[0] <= found[0] && found[1] <= extremes.max[1], "{found:?} {extremes:?}");
+        // 20,000 points are nowhere farther than 0.2 from one another in any parameter.
+        assert!(
+            found[1] >= extremes.max[0] - 0.1 && found[0] <= extremes.min[1] + 0.1,
+            "{found:?} {extremes:?}"
+        );
+    }
+    // 4 λ₁·w(1−w) ≤ 1 at the vertex of the triangle, halfway up.
+    let net = WedgeNet::new(&[0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], [1, 2]).unwrap();
+    let extremes = net.extremes(1e-10);
+    assert!(extremes.max[0] <= 1.0 && 1.0 <= extremes.max[1] && extremes.max[1] - extremes.max[0] <= 1e-10);
+}
+
+#[test]
+fn wrong_lengths_are_refused() {
+    let points = [0.0; 12];
+    let net = WedgeNet::new(&points, [2, 1]).unwrap();
+    let length = |buffer, needed, given| Err(BernsteinError::BufferLength { buffer, needed, given });
+    assert_eq!(net.elevate([2, 2], &mut [0.0; 17]), length("out", 18, 17));
+    assert_eq!(net.elevate([1, 2], &mut []), Err(BernsteinError::ElevatedDegree { from: 2, to: 1 }));
+    let refused = net.reduce([3, 1], &mut [], &mut []);
+    assert_eq!(refused, Err(BernsteinError::ReducedDegree { from: 2, to: 3 }));
+    assert_eq!(net.reduce([1, 1], &mut [0.0; 6], &mut [0.0; 49]).err(), length("scratch", 50, 49).err());
+    assert_eq!(
+        net.restrict([[0.0; 3]; 3], [0.0, 1.0], &mut [0.0; 12], &mut [0.0; 29]),
+        length("scratch", 30, 29)
+    );
+    assert_eq!(net.split_height(0.5, &mut [0.0; 12], &mut []), length("above", 12, 0));
+    assert_eq!(net.split_at([0.0; 3], &mut [0.0; 12]), length("out", 36, 12));
+    assert_eq!(net.product(&net, &mut [0.0; 3]), length("out", 45, 3));
+    assert_eq!(net.quad_face([0, 1], &mut [0.0; 5]), length("out", 6, 5));
+    assert_eq!(
+        net.quad_face([0, 3], &mut [0.0; 6]),
+        Err(BernsteinError::Vertices { vertex: 3, vertices: 3 })
+    );
+    assert_eq!(
+        net.reoriented([0, 1, 1], true, &mut [0.0; 12]),
+        Err(BernsteinError::Vertices { vertex: 1, vertices: 3 })
+    );
+    assert_eq!(net.scheme([0.0; 3], 0.5, &mut []), length("out", 21, 0));
+    assert_eq!(net.blossom(&[[0.0; 3]; 2], &[], &mut []).err(), length("in_height", 1, 0).err());
+    let broken = WedgeNet::validated(&points[..5], [usize::MAX, usize::MAX]);
+    assert!(broken.value([0.2, 0.3, 0.5], 0.5).is_nan());
+    assert!(broken.elevate([usize::MAX, usize::MAX], &mut []).is_err());
+    assert!(broken.scheme([0.2, 0.3, 0.5], 0.5, &mut [0.0; 4]).is_err());
+    let broken = WedgeNet::validated(&points[..5], [3, 2]);
+    assert!(broken.split_height(0.5, &mut [0.0; 5], &mut [0.0; 5]).is_err());
+    broken.partials([0.2, 0.3, 0.5], 0.5, &mut [0.0; 10]);
+    assert_eq!(broken.extremes(1e-3).max, [0.0; 2]);
+}
