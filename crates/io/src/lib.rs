@@ -4,6 +4,7 @@
 //! | --- | --- | --- | --- |
 //! | model file, `.json` | [`model`] | yes | yes |
 //! | concave GB patch, `.cgb` | [`cgb`] | yes | yes |
+//! | Bézier cells of VTK, `.vtu` | [`vtu`] | no | yes |
 //! | OBJ, OFF, PLY, STL meshes | [`obj`], [`off`], [`ply`], [`stl`] | no | yes |
 //!
 //! [`read_model_file`] and [`write_mesh_file`] choose by the ending of the path. Text has its numbers in the shortest
@@ -30,12 +31,14 @@ mod record;
 mod replace;
 mod shape_record;
 pub mod stl;
+pub mod vtu;
 
 pub use error::IoError;
 pub use geometry::Geometry;
 pub use mesh_file::{MESH_ENDINGS, MeshFormat, write_mesh_file};
 pub use model_file::{
-    MAX_FILE_BYTES, MODEL_ENDINGS, ModelFormat, read_model_bytes, read_model_file, write_model_file,
+    MAX_FILE_BYTES, MODEL_ENDINGS, ModelFormat, read_model_bytes, read_model_file, write_model,
+    write_model_file,
 };
 pub use net_record::NetRecord;
 pub use place::{Place, Step};

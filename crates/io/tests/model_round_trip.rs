@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use casteljau_io::cgb;
 use casteljau_io::model::{Model, NamedShape, Shape};
 use casteljau_io::{
-    CenterWeightName, CoordinatesName, GbPatchRecord, Geometry, LayoutRecord, read_model_bytes, read_model_file,
-    write_model_file,
+    CenterWeightName, CoordinatesName, GbPatchRecord, Geometry, LayoutRecord, read_model_bytes,
+    read_model_file, write_model_file,
 };
 use common::{classical, record};
 use proptest::prelude::*;

@@ -21,7 +21,8 @@ fn net(count: usize) -> impl Strategy<Value = NetRecord> {
         weights.push(0.5);
         weights
     });
-    let homogeneous = prop::collection::vec([coordinate(), coordinate(), coordinate(), coordinate()], count - 1);
+    let homogeneous =
+        prop::collection::vec([coordinate(), coordinate(), coordinate(), coordinate()], count - 1);
     prop_oneof![
         points(count).prop_map(NetRecord::Points),
         (points(count), weights).prop_map(|(points, weights)| NetRecord::Weighted { points, weights }),
