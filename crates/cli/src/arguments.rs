@@ -30,6 +30,8 @@ pub enum Command {
     Mesh(Mesh),
     /// Measure the continuity along sides and between shapes; exit status 1 where a promise is broken.
     Check(Check),
+    /// Convert between model formats (.json, .cgb), and to Bézier cells for VTK (.vtu).
+    Convert(Convert),
     /// Draw a picture.
     Plot(Plot),
 }
@@ -49,10 +51,10 @@ pub struct Selection {
 
 #[derive(Args)]
 pub struct Places {
-    /// A parameter, u,v; may be repeated, and negative.
-    #[arg(long, value_name = "U,V", allow_hyphen_values = true, conflicts_with = "params")]
+    /// A parameter: u,v of patches, λ1,λ2 of triangles, t of curves; may be repeated, and negative.
+    #[arg(long, value_name = "U[,V]", allow_hyphen_values = true, conflicts_with = "params")]
     pub at: Vec<String>,
-    /// A file of parameters, one u,v a line; `-` for standard input.
+    /// A file of parameters, one a line, numbers apart by commas; `-` for standard input.
     #[arg(long, value_name = "FILE")]
     pub params: Option<PathBuf>,
 }
@@ -63,8 +65,8 @@ pub struct Eval {
     pub selection: Selection,
     #[command(flatten)]
     pub places: Places,
-    /// Partial derivatives up to this order, 0 to 2.
-    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u8).range(0..=2))]
+    /// Partial derivatives up to this order, 0 to 50; for GB patches 0 to 2.
+    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u8).range(0..=50))]
     pub order: Option<u8>,
 }
 
@@ -127,6 +129,37 @@ pub struct Check {
     /// G2: largest relative difference of normal curvatures.
     #[arg(long, value_name = "RATIO", default_value_t = 1e-4)]
     pub curvature: f64,
+}
+
+#[derive(Args)]
+pub struct Convert {
+    #[command(flatten)]
+    pub selection: Selection,
+    /// Model file, by its ending: json, cgb, vtu; `-` for standard output.
+    #[arg(value_name = "OUT")]
+    pub output: PathBuf,
+    /// Curves and patches in this basis: `bezier` makes power_curve and power_patch curve and patch, `power` the other way.
+    #[arg(long, value_enum, value_name = "BASIS")]
+    pub to: Option<BasisName>,
+    /// Raise the degrees of curves, patches and triangles by this much, which changes no point.
+    #[arg(long, value_name = "BY")]
+    pub elevate: Option<usize>,
+    /// Format for standard output.
+    #[arg(long, value_enum, default_value = "json")]
+    pub format: ModelFormatName,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+pub enum BasisName {
+    Bezier,
+    Power,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+pub enum ModelFormatName {
+    Json,
+    Cgb,
+    Vtu,
 }
 
 #[derive(Args)]

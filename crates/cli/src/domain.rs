@@ -11,7 +11,8 @@ use crate::failure::Failure;
 use crate::input::Input;
 use crate::number::{brief, human, tuple};
 use crate::output::Lines;
-use crate::{parameters, words};
+use crate::parameters::{Parameters, Wanted};
+use crate::words;
 
 /// A domain. `boundary_residual` is the largest difference between the coordinates as they are computed inside and their
 /// exact values on the sides; `certificate` bounds their error inside.
@@ -39,7 +40,8 @@ struct Answer {
 }
 
 pub fn run(options: &Domain, json: bool) -> Result<(), Failure> {
-    let parameters = parameters::read(&options.places, &options.selection)?;
+    let parameters = Parameters::read(&options.places, &options.selection)?;
+    parameters.check(&[Wanted::SURFACE])?;
     let input = Input::read(&options.selection)?;
     let patches = input.patches()?;
     let mut lines = Lines::new();
@@ -51,18 +53,19 @@ pub fn run(options: &Domain, json: bool) -> Result<(), Failure> {
             true => lines.json(&description)?,
             false => text(&description, &Input::title(named), patch, &mut lines)?,
         }
-        for &uv in &parameters {
+        for parameter in &parameters.all {
+            let uv = DVec2::from_slice(parameter.numbers());
             let answer = answer(patch, shape, uv);
             without += usize::from(answer.is_err());
             match answer {
                 Ok(answer) if json => lines.json(&answer)?,
                 Ok(answer) => answer_text(&answer, &mut lines)?,
-                Err(error) => no_answer(shape, uv, &error, json, &mut lines)?,
+                Err(error) => no_answer(shape, parameter.numbers(), &error, json, &mut lines)?,
             }
         }
     }
     lines.finish()?;
-    all_answered(without, parameters.len() * patches.len(), &input.name)
+    all_answered(without, parameters.all.len() * patches.len(), &input.name)
 }
 
 fn describe(patch: &ConcavePatch, shape: usize) -> Description {

@@ -6,8 +6,8 @@ use std::path::Path;
 
 use casteljau::domain::HarmonicOptions;
 use casteljau::gb::ConcavePatch;
-use casteljau::io::model::{Model, NamedShape};
-use casteljau::io::{IoError, MAX_FILE_BYTES, ModelFormat, read_model_bytes, read_model_file};
+use casteljau::io::model::{Model, NamedShape, Shape};
+use casteljau::io::{Geometry, IoError, MAX_FILE_BYTES, ModelFormat, read_model_bytes, read_model_file};
 
 use crate::arguments::Selection;
 use crate::failure::Failure;
@@ -61,6 +61,14 @@ impl Input {
     /// The patches of all shapes, with the place in the file for what one of them refuses.
     pub fn patches(&self) -> Result<Vec<ConcavePatch>, Failure> {
         self.shapes.iter().map(|(_, shape)| self.patch(shape)).collect()
+    }
+
+    /// What a shape describes, GB patches with the coordinates' accuracy that is asked for.
+    pub fn geometry(&self, shape: &NamedShape) -> Result<Geometry, Failure> {
+        match shape.shape {
+            Shape::GbPatch(_) => Ok(Geometry::GbPatch(Box::new(self.patch(shape)?))),
+            _ => Ok(shape.to_geometry()?),
+        }
     }
 
     /// One of them.

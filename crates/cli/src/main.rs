@@ -4,6 +4,7 @@
 
 mod arguments;
 mod check;
+mod convert;
 mod domain;
 mod eval;
 mod failure;
@@ -48,6 +49,7 @@ fn run(arguments: &Arguments) -> Result<(), Failure> {
         Command::Domain(options) => domain::run(options, json),
         Command::Mesh(options) => mesh::run(options, json),
         Command::Check(options) => check::run(options, json),
+        Command::Convert(options) => convert::run(options),
         Command::Plot(options) => plot::run(options),
     }
 }

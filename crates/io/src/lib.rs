@@ -4,6 +4,7 @@
 //! | --- | --- | --- | --- |
 //! | model file, `.json` | [`model`] | yes | yes |
 //! | concave GB patch, `.cgb` | [`cgb`] | yes | yes |
+//! | Bézier cells of VTK, `.vtu` | [`vtu`] | no | yes |
 //! | OBJ, OFF, PLY, STL meshes | [`obj`], [`off`], [`ply`], [`stl`] | no | yes |
 //!
 //! [`read_model_file`] and [`write_mesh_file`] choose by the ending of the path. Text has its numbers in the shortest
@@ -15,9 +16,11 @@
 
 pub mod cgb;
 mod error;
+mod geometry;
 mod mesh_file;
 pub mod model;
 mod model_file;
+mod net_record;
 pub mod obj;
 pub mod off;
 mod patch;
@@ -26,16 +29,22 @@ pub mod ply;
 mod reason;
 mod record;
 mod replace;
+mod shape_record;
 pub mod stl;
+pub mod vtu;
 
 pub use error::IoError;
+pub use geometry::Geometry;
 pub use mesh_file::{MESH_ENDINGS, MeshFormat, write_mesh_file};
 pub use model_file::{
-    MAX_FILE_BYTES, MODEL_ENDINGS, ModelFormat, read_model_bytes, read_model_file, write_model_file,
+    MAX_FILE_BYTES, MODEL_ENDINGS, ModelFormat, read_model_bytes, read_model_file, write_model,
+    write_model_file,
 };
+pub use net_record::NetRecord;
 pub use place::{Place, Step};
 pub use reason::Reason;
 pub use record::{
     CenterWeightName, CoordinatesName, CornerPointRecord, GbPatchRecord, LayoutRecord, RibbonRecord,
 };
 pub use replace::replace_file;
+pub use shape_record::{CurveRecord, PatchRecord, PowerCurveRecord, PowerPatchRecord, TriangleRecord};

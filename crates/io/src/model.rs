@@ -1,6 +1,20 @@
 //! The model file: JSON, `{"casteljau": 1, "shapes": [ … ]}`.
 //!
-//! A shape has a `kind` and an optional `name`. Supported so far: `gb_patch` of form `concave`, with the fields
+//! A shape has a `kind`, an optional `name`, and the fields of its kind. Points are `[x, y, z]`; in nets, i runs with u, j
+//! with v, and the points of triangles stand in descending lexicographic order, (n,0,0), (n−1,1,0), (n−1,0,1), ….
+//!
+//! | kind | fields |
+//! | --- | --- |
+//! | `curve` | `degree`, `control_points` `[i]`, `weights`, `interval` `[a, b]` (default `[0, 1]`) |
+//! | `power_curve` | `coefficients` `[i]`, `interval` |
+//! | `patch` | `degree` `[m, n]`, `control_points` `[i][j]`, `weights`, `intervals` `[[a, b], [c, d]]` |
+//! | `power_patch` | `coefficients` `[i][j]`, `intervals` |
+//! | `triangle` | `degree`, `control_points` `[i]`, `weights` |
+//!
+//! `weights`, of the net's shape, may be left out: the shape is then polynomial. `homogeneous`, `[w·x, w·y, w·z, w]` in the
+//! net's shape, may stand in place of `control_points` and `weights`.
+//!
+//! `gb_patch` of form `concave` has the fields
 //!
 //! | field | value |
 //! | --- | --- |
@@ -20,7 +34,11 @@ use std::io::Write;
 use std::sync::Arc;
 
 use crate::place::{Step, path_text};
-use crate::{GbPatchRecord, IoError, Place};
+use crate::record::Fault;
+use crate::{
+    CurveRecord, GbPatchRecord, IoError, PatchRecord, Place, PowerCurveRecord, PowerPatchRecord,
+    TriangleRecord,
+};
 
 mod locate;
 mod wire;
@@ -65,6 +83,16 @@ pub struct NamedShape {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Shape {
+    /// A Bézier curve.
+    Curve(CurveRecord),
+    /// A polynomial curve in the power basis.
+    PowerCurve(PowerCurveRecord),
+    /// A tensor-product Bézier patch.
+    Patch(PatchRecord),
+    /// A polynomial patch in the power basis.
+    PowerPatch(PowerPatchRecord),
+    /// A Bézier triangle.
+    Triangle(TriangleRecord),
     /// A concave GB patch.
     GbPatch(GbPatchRecord),
 }
@@ -73,7 +101,25 @@ impl Shape {
     /// The word for it in model files.
     pub fn kind(&self) -> &'static str {
         match self {
+            Self::Curve(_) => "curve",
+            Self::PowerCurve(_) => "power_curve",
+            Self::Patch(_) => "patch",
+            Self::PowerPatch(_) => "power_patch",
+            Self::Triangle(_) => "triangle",
             Self::GbPatch(_) => "gb_patch",
+        }
+    }
+
+    /// Refuses what is no net. The nets of curves, patches and triangles are all that they are, so that these are built;
+    /// whether ribbons make a GB patch is for the patch to say.
+    fn check(&self) -> Result<(), Fault> {
+        match self {
+            Self::Curve(record) => record.build().map(drop),
+            Self::PowerCurve(record) => record.build().map(drop),
+            Self::Patch(record) => record.build().map(drop),
+            Self::PowerPatch(record) => record.build().map(drop),
+            Self::Triangle(record) => record.build().map(drop),
+            Self::GbPatch(record) => record.check(),
         }
     }
 }
@@ -92,16 +138,12 @@ impl Model {
     ///
     /// Error: [`IoError::Invalid`] with the line, the column and the path in the document.
     pub fn read(text: &str, file: &str) -> Result<Self, IoError> {
-        let records = wire::read(text, file)?;
+        let shapes = wire::read(text, file)?;
         let origin = Arc::new(Origin::Json { file: file.into(), text: text.into() });
-        let shapes = records
+        let shapes = shapes
             .into_iter()
             .enumerate()
-            .map(|(index, (name, record))| NamedShape {
-                name,
-                shape: Shape::GbPatch(record),
-                origin: Some((origin.clone(), index)),
-            })
+            .map(|(index, (name, shape))| NamedShape { name, shape, origin: Some((origin.clone(), index)) })
             .collect::<Vec<_>>();
         shapes.iter().try_for_each(NamedShape::check)?;
         Ok(Self { shapes })
@@ -171,14 +213,12 @@ impl NamedShape {
     }
 
     fn check(&self) -> Result<(), IoError> {
-        let Shape::GbPatch(record) = &self.shape;
-        record.check().map_err(|(steps, reason)| IoError::invalid(self.place_of(&steps), reason))
+        self.shape.check().map_err(|(steps, reason)| IoError::invalid(self.place_of(&steps), reason))
     }
 
     /// Checks a shape that is to be written as the one of this number.
     fn check_as(&self, index: usize) -> Result<(), IoError> {
-        let Shape::GbPatch(record) = &self.shape;
-        record.check().map_err(|(steps, reason)| {
+        self.shape.check().map_err(|(steps, reason)| {
             let steps = [vec![Step::Field("shapes"), Step::Index(index)], steps].concat();
             IoError::invalid(Place { path: path_text(&steps), ..Place::file(crate::error::STREAM) }, reason)
         })

@@ -1,5 +1,5 @@
 use std::fs::File;
-use std::io::Read;
+use std::io::{Read, Write};
 use std::path::Path;
 
 use crate::cgb::{self, Warning};
@@ -107,14 +107,25 @@ pub fn read_model_bytes(
 /// reading would refuse; or what the system says. Each names the path.
 pub fn write_model_file(path: &Path, model: &Model) -> Result<(), IoError> {
     let format = ModelFormat::of_path(path)?;
-    replace_file(path, |out| match (format, model.shapes.as_slice()) {
+    replace_file(path, |out| write_model(model, format, out))
+}
+
+/// Writes a model in a format. Error: as for [`write_model_file`], without the path.
+pub fn write_model(
+    model: &Model,
+    format: ModelFormat,
+    out: &mut (impl Write + ?Sized),
+) -> Result<(), IoError> {
+    let unwritable =
+        |what| Err(IoError::invalid(Place::default(), Reason::Unwritable { format: "cgb", what }));
+    match (format, model.shapes.as_slice()) {
         (ModelFormat::Json, _) => model.write(out),
         (ModelFormat::Cgb, [NamedShape { shape: Shape::GbPatch(record), .. }]) => {
             cgb::write(record, cgb::DEFAULT_TOLERANCE, out)
         }
-        (ModelFormat::Cgb, shapes) => {
-            let what = format!("{} shapes, only one", shapes.len());
-            Err(IoError::invalid(Place::default(), Reason::Unwritable { format: "cgb", what }))
+        (ModelFormat::Cgb, [NamedShape { shape, .. }]) => {
+            unwritable(format!("a shape of kind `{}`, only `gb_patch`", shape.kind()))
         }
-    })
+        (ModelFormat::Cgb, shapes) => unwritable(format!("{} shapes, only one", shapes.len())),
+    }
 }

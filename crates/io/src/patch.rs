@@ -17,9 +17,12 @@ impl NamedShape {
     /// The builder of the patch that is described, for further options; [`placed`](Self::placed) puts file and line to
     /// what its `build` refuses.
     ///
-    /// Error: a ribbon or a domain polygon that is none, at its place in the file.
+    /// Error: a shape of another kind; a ribbon or a domain polygon that is none, at its place in the file.
     pub fn patch_builder(&self) -> Result<ConcavePatchBuilder, IoError> {
-        let Shape::GbPatch(record) = &self.shape;
+        let Shape::GbPatch(record) = &self.shape else {
+            let reason = Reason::NotGbPatch { kind: self.shape.kind() };
+            return Err(self.fault((vec![Step::Field("kind")], reason)));
+        };
         record.check().and_then(|()| builder(record)).map_err(|fault| self.fault(fault))
     }
 
@@ -45,11 +48,14 @@ impl NamedShape {
 
     /// An error of the patch as an error of the file: with the place of what it is about.
     pub fn placed(&self, error: GbError) -> IoError {
-        let Shape::GbPatch(record) = &self.shape;
-        self.fault((part(&error, record), Reason::Geometry(Box::new(error))))
+        let steps = match &self.shape {
+            Shape::GbPatch(record) => part(&error, record),
+            _ => Vec::new(),
+        };
+        self.fault((steps, Reason::Geometry(Box::new(error))))
     }
 
-    fn fault(&self, (steps, reason): Fault) -> IoError {
+    pub(crate) fn fault(&self, (steps, reason): Fault) -> IoError {
         IoError::invalid(self.place_of(&steps), reason)
     }
 }

@@ -1,4 +1,6 @@
 use casteljau_gb::GbError;
+use casteljau_geom::GeomError;
+use casteljau_shape::ShapeError;
 use thiserror::Error;
 
 /// What is wrong inside a file, and why. Sides, rows, points and corners count from 0.
@@ -35,16 +37,20 @@ pub enum Reason {
         found: String,
     },
     /// A kind of shape that exists and cannot be read yet.
-    #[error("shapes of kind `{kind}` are not supported yet; supported: `gb_patch`")]
+    #[error("shapes of kind `{kind}` are not supported yet; supported: {supported}")]
     KindNotYet {
         /// The kind.
         kind: String,
+        /// The kinds that can be read.
+        supported: String,
     },
     /// A kind of shape that does not exist.
-    #[error("there is no kind `{kind}`; supported: `gb_patch`")]
+    #[error("there is no kind `{kind}`; supported: {supported}")]
     KindUnknown {
         /// What stands there.
         kind: String,
+        /// The kinds that can be read.
+        supported: String,
     },
     /// A form of GB patch that cannot be read yet.
     #[error("GB patches of form `{form}` are not supported yet; supported: `concave`")]
@@ -214,6 +220,52 @@ pub enum Reason {
     Dilation {
         /// Its value.
         value: f64,
+    },
+    /// A net whose number of control points, or of rows, does not fit the degree.
+    #[error("degree {degree} needs {expected} {what}, not {found}")]
+    NetSize {
+        /// What is counted.
+        what: &'static str,
+        /// The degree they have to fit.
+        degree: usize,
+        /// How many there have to be.
+        expected: usize,
+        /// How many there are.
+        found: usize,
+    },
+    /// A row of coefficients of another length than the first one.
+    #[error("row {row} has {found} coefficients, but row 0 has {expected}")]
+    CoefficientRow {
+        /// The row.
+        row: usize,
+        /// Its length.
+        found: usize,
+        /// The length of row 0.
+        expected: usize,
+    },
+    /// A power basis without coefficients.
+    #[error("there are no coefficients, and a polynomial has at least one")]
+    NoCoefficients,
+    /// Neither form of control points.
+    #[error("there are no control points: `control_points` or `homogeneous` is needed")]
+    NoNet,
+    /// Homogeneous control points beside the fields that they stand in place of.
+    #[error("`homogeneous` stands in place of `control_points` and `weights`: it excludes `{field}`")]
+    TwoNets {
+        /// The field that is too much.
+        field: &'static str,
+    },
+    /// An interval that is none.
+    #[error(transparent)]
+    Interval(GeomError),
+    /// A description that is well-formed and no curve, patch or triangle.
+    #[error("{0}")]
+    Shape(#[source] Box<ShapeError>),
+    /// A shape of another kind where a GB patch is asked for.
+    #[error("a shape of kind `{kind}` is no GB patch")]
+    NotGbPatch {
+        /// The kind.
+        kind: &'static str,
     },
     /// A ribbon that is none.
     #[error("side {side}: {source}")]

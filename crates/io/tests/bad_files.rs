@@ -6,10 +6,10 @@ use std::path::Path;
 
 use casteljau_io::{IoError, MAX_FILE_BYTES, Reason, read_model_bytes, read_model_file};
 
-/// Reads a file and builds its patches.
+/// Reads a file and builds its shapes.
 fn open(path: &Path) -> Result<(), IoError> {
     let (model, _) = read_model_file(path)?;
-    model.shapes.iter().try_for_each(|shape| shape.to_patch().map(drop))
+    model.shapes.iter().try_for_each(|shape| shape.to_geometry().map(drop))
 }
 
 #[test]
@@ -18,7 +18,7 @@ fn every_case_is_refused_as_expected() {
     let mut paths: Vec<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     paths.retain(|path| path.extension().unwrap() != "expected");
     paths.sort();
-    assert!(paths.len() >= 80, "{} cases", paths.len());
+    assert!(paths.len() >= 120, "{} cases", paths.len());
     let mut wrong = String::new();
     for path in paths {
         let expected = fs::read_to_string(path.with_extension("expected")).unwrap();

@@ -8,10 +8,10 @@ use std::path::{Path, PathBuf};
 use casteljau_io::cgb;
 use casteljau_io::model::{Model, NamedShape, Shape};
 use casteljau_io::{
-    CenterWeightName, CoordinatesName, GbPatchRecord, LayoutRecord, read_model_bytes, read_model_file,
-    write_model_file,
+    CenterWeightName, CoordinatesName, GbPatchRecord, Geometry, LayoutRecord, read_model_bytes,
+    read_model_file, write_model_file,
 };
-use common::record;
+use common::{classical, record};
 use proptest::prelude::*;
 
 /// Unlike `==`, tells −0 from 0.
@@ -40,6 +40,43 @@ proptest! {
         let again = Model::read(&text, "again.json").unwrap();
         prop_assert_eq!(bits(&records(&again)), bits(&records(&model)));
         prop_assert_eq!(json(&again), text);
+    }
+
+    #[test]
+    fn curves_patches_and_triangles(
+        shapes in prop::collection::vec((prop::option::of(any::<String>()), classical()), 1..4),
+    ) {
+        let shapes = shapes.into_iter().map(|(name, shape)| NamedShape::new(name, shape));
+        let model = Model { shapes: shapes.collect() };
+        let text = json(&model);
+        let again = Model::read(&text, "again.json").unwrap();
+        prop_assert_eq!(bits(&records(&again)), bits(&records(&model)));
+        prop_assert_eq!(json(&again), text);
+        for shape in &model.shapes {
+            let geometry = shape.to_geometry().unwrap();
+            prop_assert_eq!(geometry.as_curve().is_some(), !geometry.as_surface().is_some());
+            let refused = shape.patch_builder().unwrap_err().to_string();
+            prop_assert!(refused.contains("is no GB patch"), "{}", refused);
+        }
+    }
+
+    /// What a shape is described as describes the same shape.
+    #[test]
+    fn descriptions_of_shapes(shape in classical()) {
+        let geometry = NamedShape::new(None, shape).to_geometry().unwrap();
+        let again = match &geometry {
+            Geometry::Curve(curve) => Shape::Curve(curve.into()),
+            Geometry::RationalCurve(curve) => Shape::Curve(curve.into()),
+            Geometry::PowerCurve(curve) => Shape::PowerCurve(curve.into()),
+            Geometry::Patch(patch) => Shape::Patch(patch.into()),
+            Geometry::RationalPatch(patch) => Shape::Patch(patch.into()),
+            Geometry::PowerPatch(patch) => Shape::PowerPatch(patch.into()),
+            Geometry::Triangle(triangle) => Shape::Triangle(triangle.into()),
+            Geometry::RationalTriangle(triangle) => Shape::Triangle(triangle.into()),
+            _ => unreachable!("no GB patch was asked for"),
+        };
+        let again = NamedShape::new(None, again).to_geometry().unwrap();
+        prop_assert_eq!(format!("{again:?}"), format!("{geometry:?}"));
     }
 
     #[test]

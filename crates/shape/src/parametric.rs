@@ -243,9 +243,9 @@ pub trait ParametricSurface {
     /// Area `∬ |∂u × ∂v| du dv` over the domain, with an error of at most `relative` times itself.
     ///
     /// The domain is cut into cells, worst first, until the changes from Gauss's rule of 16 × 16 points on a cell to
-    /// the same rule on its four quarters, and a bound on the rounding, add up to no more than was asked for. That is an estimate, on the safe side where the surface is smooth over the cells; it is no certificate,
-    /// as that of arc lengths is. Creases, where the normal turns over, cost cells. Cost grows with the
-    /// bicubic patch at 1e-10.
+    /// the same rule on its four quarters, and a bound on the rounding, add up to no more than was asked for. That is
+    /// an estimate, on the safe side where the surface is smooth over the cells; it is no certificate, as that of arc
+    /// lengths is. Creases, where the normal turns over, cost cells.
     ///
     /// ```
     /// use casteljau_shape::{ParametricSurface, RationalPatch, geom::glam::DVec3};

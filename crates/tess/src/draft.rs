@@ -4,11 +4,12 @@ use std::collections::HashSet;
 
 use casteljau_domain::triangulation::{TriangulationOptions, triangulate};
 use casteljau_domain::{DomainError, Polygon};
-use casteljau_gb::{ConcavePatch, Location, SampleSet};
+use casteljau_gb::Location;
 use casteljau_geom::glam::{DMat2, DVec2, DVec3};
 
 use crate::TessError;
 use crate::progress::Tell;
+use crate::surface::Surface;
 use crate::topology::Topology;
 
 /// Points evaluated between two looks at the progress callback.
@@ -58,7 +59,7 @@ impl Request<'_> {
 
 /// Vertices and triangles of one patch; the vertices of the outline come first.
 pub(crate) struct Draft<'a> {
-    pub patch: &'a ConcavePatch,
+    pub surface: &'a dyn Surface,
     pub request: Request<'a>,
     pub tell: &'a Tell<'a>,
     /// From the plane that the mesh is drawn in to the domain.
@@ -80,7 +81,7 @@ pub(crate) struct Draft<'a> {
 impl<'a> Draft<'a> {
     /// Triangulates the domain and evaluates the patch at the vertices.
     pub fn new(
-        patch: &'a ConcavePatch,
+        surface: &'a dyn Surface,
         outline: &Outline,
         request: Request<'a>,
         forth: DMat2,
@@ -88,7 +89,7 @@ impl<'a> Draft<'a> {
         expected: f64,
         tell: &'a Tell<'a>,
     ) -> Result<Self, TessError> {
-        let domain = patch.domain();
+        let domain = surface.domain();
         let wrong = |source| TessError::Domain { patch: request.patch, source };
         // A location is one of the outline's own, so there is always a place.
         let place = |location: &Location| forth * domain.at(*location).unwrap_or(DVec2::NAN);
@@ -120,7 +121,7 @@ impl<'a> Draft<'a> {
         };
         let count = mesh.points.len();
         let mut draft = Self {
-            patch,
+            surface,
             request,
             tell,
             back: forth.inverse(),
@@ -169,14 +170,7 @@ impl<'a> Draft<'a> {
         points: &mut [DVec3],
         normals: Option<&mut [DVec3]>,
     ) -> Result<(), TessError> {
-        let wrong = |source| TessError::Patch { patch: self.request.patch, source };
-        let order = usize::from(normals.is_some());
-        let samples = SampleSet::new(self.patch.coordinates(), locations, order).map_err(wrong)?;
-        match normals {
-            Some(normals) => self.patch.evaluate_sample_normals(&samples, points, normals),
-            None => self.patch.evaluate_samples(&samples, points),
-        }
-        .map_err(wrong)
+        self.surface.sample(locations, points, normals).map_err(|fault| fault.of(self.request.patch))
     }
 
     /// Points of the patch at places of the plane.

@@ -1,12 +1,14 @@
 use casteljau_domain::DomainError;
 use casteljau_gb::GbError;
 use casteljau_mesh::MeshError;
+use casteljau_shape::ShapeError;
 
 /// What can be wrong with a tessellation, and where. Patches are counted from 0.
 ///
 /// ```
+/// use casteljau_gb::ConcavePatch;
 /// use casteljau_tess::{TessError, TessellationOptions, no_progress, tessellate};
-/// let nothing = tessellate(&[], &TessellationOptions::resolution(8), &mut no_progress);
+/// let nothing = tessellate::<ConcavePatch>(&[], &TessellationOptions::resolution(8), &mut no_progress);
 /// assert_eq!(nothing.unwrap_err(), TessError::Empty);
 /// ```
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -61,6 +63,24 @@ pub enum TessError {
     Cancelled {
         /// How much was done, 0 to 1.
         fraction: f64,
+    },
+    /// A Bézier patch or triangle could not be evaluated: it has a pole.
+    ///
+    /// ```
+    /// use casteljau_shape::{RationalPatch, geom::glam::DVec3};
+    /// use casteljau_tess::{TessError, TessellationOptions, no_progress, tessellate};
+    /// let net = [DVec3::ZERO, DVec3::Y, DVec3::X, DVec3::ONE];
+    /// let patch = RationalPatch::new([1, 1], &net, &[1.0, 1.0, -1.0, -1.0])?; // pole at u = ½
+    /// let refused = tessellate(&[patch], &TessellationOptions::resolution(8), &mut no_progress);
+    /// assert!(matches!(refused, Err(TessError::Shape { patch: 0, .. })));
+    /// # Ok::<(), casteljau_shape::ShapeError>(())
+    /// ```
+    #[error("patch {patch}: {source}")]
+    Shape {
+        /// The patch.
+        patch: usize,
+        /// What it said.
+        source: ShapeError,
     },
     /// A patch could not be evaluated.
     #[error("patch {patch}: {source}")]

@@ -21,21 +21,29 @@
 //!
 //! **Determinism.** The same input gives the same bits.
 
+mod chart;
+mod charted;
 mod draft;
 mod error;
+mod face;
 mod improve;
 mod measure;
 mod model;
 mod options;
+mod poles;
 mod progress;
 mod refine;
 mod report;
 mod side;
+mod side_curve;
+mod side_key;
 mod sizing;
+mod surface;
 mod tessellate;
 mod topology;
 
 pub use error::TessError;
+pub use face::{AsFace, Face};
 pub use options::{DEFAULT_MAX_VERTICES, Density, Seams, TessellationOptions, no_progress};
 pub use report::{Quality, Report, SideId};
 pub use side::SideSamples;

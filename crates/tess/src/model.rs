@@ -2,19 +2,21 @@
 
 use std::collections::{HashMap, HashSet};
 
-use casteljau_gb::{ConcavePatch, Location};
+use casteljau_gb::Location;
 use casteljau_geom::glam::DVec3;
-use casteljau_shape::Curve;
 
 use crate::draft::Outline;
 use crate::report::{Report, SideId};
-use crate::side::{SideKey, SideSamples};
+use crate::side::{NoSamples, SideSamples};
+use crate::side_key::SideKey;
+use crate::surface::{Fault, Surface};
 use crate::{Density, TessError};
 
 /// One curve, and the sides along it.
 struct SharedSide {
     samples: SideSamples,
     symmetric: bool,
+    collapsed: bool,
     uses: Vec<(SideId, bool)>,
 }
 
@@ -31,26 +33,33 @@ pub(crate) struct Model {
 impl Model {
     /// Samples all sides. `merge` makes one vertex of the samples that shared sides have in common.
     pub fn new(
-        patches: &[ConcavePatch],
+        surfaces: &[Box<dyn Surface + '_>],
         density: Density,
         limit: usize,
         merge: bool,
     ) -> Result<Self, TessError> {
         let mut known: HashMap<Vec<u64>, usize> = HashMap::new();
         let mut shared: Vec<SharedSide> = Vec::new();
-        let mut outlines = Vec::with_capacity(patches.len());
+        let mut outlines = Vec::with_capacity(surfaces.len());
         let mut total = 0usize;
-        for (patch, shape) in patches.iter().enumerate() {
+        for (patch, surface) in surfaces.iter().enumerate() {
             let mut outline = Outline::default();
-            let n = shape.sides();
-            for (side, ribbon) in shape.ribbons().iter().enumerate() {
-                let key = SideKey::new(ribbon.row(0));
+            let n = surface.domain().len();
+            for side in 0..n {
+                let key = SideKey::new(&surface.side_net(side));
                 let place = match known.get(&key.bits()) {
                     Some(&place) => place,
                     None => {
                         known.insert(key.bits(), shared.len());
-                        let samples = sample(&key, density, limit, patch)?;
-                        shared.push(SharedSide { samples, symmetric: key.symmetric, uses: Vec::new() });
+                        let samples =
+                            SideSamples::canonical(&key, density, limit).map_err(|why| match why {
+                                NoSamples::TooMany(needed) => {
+                                    TessError::TooManyVertices { patch, needed, limit }
+                                }
+                                NoSamples::Shape(source) => Fault::Shape(source).of(patch),
+                            })?;
+                        let SideKey { symmetric, collapsed, .. } = key;
+                        shared.push(SharedSide { samples, symmetric, collapsed, uses: Vec::new() });
                         shared.len() - 1
                     }
                 };
@@ -83,7 +92,7 @@ impl Model {
         let mut model = Self { outlines, vertices: Vec::new(), count: 0, shared };
         model.number(merge);
         if model.count > limit {
-            let (patch, needed) = (patches.len() - 1, model.count as f64);
+            let (patch, needed) = (surfaces.len() - 1, model.count as f64);
             return Err(TessError::TooManyVertices { patch, needed, limit });
         }
         Ok(model)
@@ -101,6 +110,13 @@ impl Model {
         if merge {
             for side in &self.shared {
                 let count = side.samples.points().len();
+                if side.collapsed {
+                    for &(id, _) in &side.uses {
+                        let start = offsets[id.patch] + self.sample_of(id, 0);
+                        let end = offsets[id.patch] + self.sample_of(id, count - 1);
+                        join(&mut parent, start, end);
+                    }
+                }
                 let Some((&(first, first_reversed), others)) = side.uses.split_first() else { continue };
                 for &(other, reversed) in others {
                     for j in 0..count {
@@ -145,31 +161,23 @@ impl Model {
         self.vertices.iter().flat_map(around).collect()
     }
 
-    /// Says which sides are open, crowded or run the wrong way.
-    pub fn report(&self, report: &mut Report) {
-        for side in &self.shared {
-            match side.uses[..] {
+    /// Says which sides are open, crowded or run the wrong way, by the names that the shapes give them.
+    pub fn report(&self, surfaces: &[Box<dyn Surface + '_>], report: &mut Report) {
+        let name = |id: SideId| SideId { side: surfaces[id.patch].side_name(id.side), ..id };
+        for side in self.shared.iter().filter(|side| !side.collapsed) {
+            let uses: Vec<_> = side.uses.iter().map(|&(id, reversed)| (name(id), reversed)).collect();
+            match uses[..] {
                 [(only, _)] => report.open_sides.push(only),
                 [(first, a), (second, b)] if a == b && !side.symmetric => {
                     report.misoriented.push([first, second]);
                 }
                 [_, _] => {}
-                _ => report.crowded_sides.extend(side.uses.iter().map(|u| u.0)),
+                _ => report.crowded_sides.extend(uses.iter().map(|u| u.0)),
             }
         }
         report.open_sides.sort_unstable();
         report.crowded_sides.sort_unstable();
     }
-}
-
-fn sample(key: &SideKey, density: Density, limit: usize, patch: usize) -> Result<SideSamples, TessError> {
-    let curve =
-        Curve::new(key.points.clone()).map_err(|source| TessError::Patch { patch, source: source.into() })?;
-    SideSamples::plan(&curve, density, limit).map_err(|more| TessError::TooManyVertices {
-        patch,
-        needed: more.needed,
-        limit,
-    })
 }
 
 fn root(parent: &mut [usize], mut x: usize) -> usize {

@@ -1,9 +1,11 @@
 //! Vertices along a side, decided by its curve alone.
 
-use casteljau_geom::glam::DVec3;
-use casteljau_shape::Curve;
+use casteljau_geom::glam::{DVec3, DVec4};
+use casteljau_shape::{Curve, RationalCurve, ShapeError};
 
 use crate::Density;
+use crate::side_curve::SideCurve;
+use crate::side_key::SideKey;
 
 /// The parameters are multiples of this, so that 1 − t is exact.
 const GRAIN: f64 = 1.0 / (1u64 << 52) as f64;
@@ -17,9 +19,17 @@ const GROWTH: f64 = 0.25;
 
 /// Why a side has no samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct TooMany {
-    /// How many samples it would take, roughly.
-    pub needed: f64,
+pub(crate) enum NoSamples {
+    /// It would take about so many.
+    TooMany(f64),
+    /// The curve has a pole.
+    Shape(ShapeError),
+}
+
+impl From<ShapeError> for NoSamples {
+    fn from(error: ShapeError) -> Self {
+        Self::Shape(error)
+    }
 }
 
 /// Points along a curve that depend on the curve alone, not on the patch it bounds nor on the way it is run.
@@ -58,31 +68,49 @@ impl SideSamples {
     /// # Ok::<(), casteljau_shape::ShapeError>(())
     /// ```
     pub fn new(curve: &Curve, density: Density, limit: usize) -> Option<Self> {
-        Self::plan(curve, density, limit).ok()
+        let net: Vec<DVec4> = curve.control_points().iter().map(|p| p.extend(1.0)).collect();
+        Self::of_key(&SideKey::new(&net), density, limit).ok()
     }
 
-    pub(crate) fn plan(curve: &Curve, density: Density, limit: usize) -> Result<Self, TooMany> {
-        let key = SideKey::new(curve.control_points());
-        let nonsense = TooMany { needed: f64::INFINITY };
-        let canonical = Curve::new(key.points.clone()).map_err(|_| nonsense)?;
+    /// As [`new`](Self::new), for a rational curve; `None` also where it has a pole.
+    ///
+    /// Homogeneous control points decide which curves are the same: two nets that differ by a factor −1 or a power of
+    /// two, and a net of equal weights and that of the polynomial curve. The bound counts the inner control points by
+    /// their share in the denominator, W(1 − 2^{1−d})/(W(1 − 2^{1−d}) + w 2^{1−d}), W being their largest weight and w the
+    /// lesser one at the ends.
+    pub fn rational(curve: &RationalCurve, density: Density, limit: usize) -> Option<Self> {
+        Self::of_key(&SideKey::new(curve.control_points()), density, limit).ok()
+    }
+
+    /// Samples in the direction of the curve that the key was made of.
+    pub(crate) fn of_key(key: &SideKey, density: Density, limit: usize) -> Result<Self, NoSamples> {
+        let canonical = Self::canonical(key, density, limit)?;
+        Ok(if key.reversed { canonical.reversed() } else { canonical })
+    }
+
+    /// Samples in the canonical direction.
+    pub(crate) fn canonical(key: &SideKey, density: Density, limit: usize) -> Result<Self, NoSamples> {
+        const NONSENSE: NoSamples = NoSamples::TooMany(f64::INFINITY);
+        let curve = SideCurve::new(key)?;
         let (parameters, chord_error) = match density {
-            Density::Resolution(0) => return Err(nonsense),
-            Density::Resolution(count) if count > limit => return Err(TooMany { needed: count as f64 }),
+            // A point needs no vertices but itself.
+            Density::Resolution(1..) | Density::Tolerance(_) if key.collapsed => (Vec::new(), 0.0),
+            Density::Resolution(0) => return Err(NONSENSE),
+            Density::Resolution(count) if count > limit => return Err(NoSamples::TooMany(count as f64)),
             Density::Resolution(count) => ((1..count).map(|i| snap(i as f64 / count as f64)).collect(), 0.0),
             Density::Tolerance(tolerance) if tolerance > 0.0 && tolerance.is_finite() => {
-                adapt(&canonical, tolerance, limit)?
+                adapt(&curve, tolerance, limit)?
             }
-            Density::Tolerance(_) => return Err(nonsense),
+            Density::Tolerance(_) => return Err(NONSENSE),
         };
-        let inner = parameters.iter().map(|&t| canonical.point(t) + DVec3::ZERO);
-        let (first, last) = (key.points[0], key.points[key.points.len() - 1]);
-        let mut points: Vec<DVec3> = std::iter::once(first).chain(inner).chain([last]).collect();
-        let mut parameters: Vec<f64> = std::iter::once(0.0).chain(parameters).chain([1.0]).collect();
-        if key.reversed {
-            points.reverse();
-            parameters.reverse();
-            parameters.iter_mut().for_each(|t| *t = 1.0 - *t);
+        let [first, last] = key.ends();
+        let mut points = Vec::with_capacity(parameters.len() + 2);
+        points.push(first);
+        for &t in &parameters {
+            points.push(curve.point(t)? + DVec3::ZERO);
         }
+        points.push(last);
+        let parameters = std::iter::once(0.0).chain(parameters).chain([1.0]).collect();
         Ok(Self { parameters, points, chord_error })
     }
 
@@ -111,46 +139,17 @@ impl SideSamples {
     }
 }
 
-/// A curve's control points in the canonical direction, zeros without sign: equal for curves that share all samples.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct SideKey {
-    pub points: Vec<DVec3>,
-    pub reversed: bool,
-    /// Both directions are the same.
-    pub symmetric: bool,
-}
-
-impl SideKey {
-    pub fn new(control_points: &[DVec3]) -> Self {
-        // Adding 0 turns −0 into 0.
-        let mut points: Vec<DVec3> = control_points.iter().map(|&p| p + DVec3::ZERO).collect();
-        let coordinates = points.iter().flat_map(|p| p.to_array());
-        let backward = points.iter().rev().flat_map(|p| p.to_array());
-        let order = coordinates.partial_cmp(backward);
-        let reversed = order == Some(std::cmp::Ordering::Greater);
-        if reversed {
-            points.reverse();
-        }
-        Self { points, reversed, symmetric: order == Some(std::cmp::Ordering::Equal) }
-    }
-
-    /// The bits, to look it up by.
-    pub fn bits(&self) -> Vec<u64> {
-        self.points.iter().flat_map(|p| p.to_array().map(f64::to_bits)).collect()
-    }
-}
-
 fn snap(t: f64) -> f64 {
     (t / GRAIN).round() * GRAIN
 }
 
 /// Inner parameters whose chords are within the tolerance, and the bound on what they miss.
-fn adapt(curve: &Curve, tolerance: f64, limit: usize) -> Result<(Vec<f64>, f64), TooMany> {
-    let profile = Profile::new(curve, tolerance);
+fn adapt(curve: &SideCurve, tolerance: f64, limit: usize) -> Result<(Vec<f64>, f64), NoSamples> {
+    let profile = Profile::new(curve, tolerance)?;
     let mut wanted = profile.count();
     for _ in 0..40 {
         if wanted.is_nan() || wanted > limit as f64 {
-            return Err(TooMany { needed: wanted });
+            return Err(NoSamples::TooMany(wanted));
         }
         let parameters = profile.place(wanted.ceil().max(1.0) as usize);
         let error = chord_bound(curve, &parameters)?;
@@ -163,11 +162,11 @@ fn adapt(curve: &Curve, tolerance: f64, limit: usize) -> Result<(Vec<f64>, f64),
 }
 
 /// Halving, for curves that the density does not understand.
-fn halve(curve: &Curve, tolerance: f64, limit: usize) -> Result<(Vec<f64>, f64), TooMany> {
+fn halve(curve: &SideCurve, tolerance: f64, limit: usize) -> Result<(Vec<f64>, f64), NoSamples> {
     let (mut parameters, mut largest) = (Vec::new(), 0.0f64);
     let mut todo = vec![[0.0, 1.0]];
     while let Some([a, b]) = todo.pop() {
-        let error = segment_bound(curve, a, b)?;
+        let error = curve.segment_bound(a, b)?;
         if error > tolerance && b - a > 2.0 * CLOSEST {
             let middle = snap(0.5 * (a + b));
             todo.extend([[middle, b], [a, middle]]);
@@ -176,39 +175,22 @@ fn halve(curve: &Curve, tolerance: f64, limit: usize) -> Result<(Vec<f64>, f64),
             parameters.extend((b < 1.0).then_some(b));
         }
         if parameters.len() + todo.len() > limit {
-            return Err(TooMany { needed: (parameters.len() + todo.len()) as f64 });
+            return Err(NoSamples::TooMany((parameters.len() + todo.len()) as f64));
         }
     }
     Ok((parameters, largest))
 }
 
-/// Largest [`segment_bound`] between successive parameters.
-fn chord_bound(curve: &Curve, inner: &[f64]) -> Result<f64, TooMany> {
+/// Largest [`segment_bound`](SideCurve::segment_bound) between successive parameters.
+fn chord_bound(curve: &SideCurve, inner: &[f64]) -> Result<f64, NoSamples> {
     let ends = inner.iter().copied().chain([1.0]);
     let mut start = 0.0;
     let mut largest = 0.0f64;
     for end in ends {
-        largest = largest.max(segment_bound(curve, start, end)?);
+        largest = largest.max(curve.segment_bound(start, end)?);
         start = end;
     }
     Ok(largest)
-}
-
-/// Bound on the distance of C([a, b]) from its chord: |Σ B_i(Q_i − foot_i)| with feet on the chord and the end terms
-/// zero.
-fn segment_bound(curve: &Curve, a: f64, b: f64) -> Result<f64, TooMany> {
-    let nonsense = |_| TooMany { needed: f64::INFINITY };
-    let head = if b < 1.0 { curve.split(b).map_err(nonsense)?.0 } else { curve.clone() };
-    let part = if a > 0.0 { head.split(a / b).map_err(nonsense)?.1 } else { head };
-    let points = part.control_points();
-    let (start, chord) = (points[0], points[points.len() - 1] - points[0]);
-    let square = chord.length_squared();
-    let away = points.iter().map(|&p| {
-        let along = if square > 0.0 { ((p - start).dot(chord) / square).clamp(0.0, 1.0) } else { 0.0 };
-        p.distance(start + chord * along)
-    });
-    let inner_weight = 1.0 - 2f64.powi(1 - part.degree() as i32);
-    Ok(inner_weight * away.fold(0.0, f64::max))
 }
 
 /// How many chords are wanted up to each of a row of parameters.
@@ -217,9 +199,10 @@ struct Profile {
 }
 
 impl Profile {
-    fn new(curve: &Curve, tolerance: f64) -> Self {
+    fn new(curve: &SideCurve, tolerance: f64) -> Result<Self, ShapeError> {
         let steps = 8 * curve.degree() + 24;
-        let jets: Vec<_> = (0..=steps).map(|i| curve.jet(i as f64 / steps as f64)).collect();
+        let jets: Vec<_> =
+            (0..=steps).map(|i| curve.jet(i as f64 / steps as f64)).collect::<Result<_, _>>()?;
         // Trapezoids; the length need not be exact.
         let ds: Vec<f64> =
             jets.windows(2).map(|w| 0.5 * (w[0].d1.length() + w[1].d1.length()) / steps as f64).collect();
@@ -253,7 +236,7 @@ impl Profile {
         if sum <= 0.0 {
             total = (0..=steps).map(|i| i as f64 / steps as f64).collect();
         }
-        Self { total }
+        Ok(Self { total })
     }
 
     fn count(&self) -> f64 {

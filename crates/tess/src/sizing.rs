@@ -1,10 +1,11 @@
 //! How large triangles may be where: samples of the surface, the plane they are drawn in, and the field of sizes.
 
 use casteljau_domain::triangulation::{TriangulationOptions, triangulate};
-use casteljau_gb::{ConcavePatch, Location, SampleSet, SurfaceJet};
+use casteljau_gb::{Location, SurfaceJet};
 use casteljau_geom::glam::{DMat2, DVec2};
 
 use crate::TessError;
+use crate::surface::Surface;
 
 /// A stretch of the domain beyond this is not evened out: the samples are then not to be trusted.
 const MOST_STRETCH: f64 = 16.0;
@@ -21,8 +22,8 @@ pub(crate) struct Probes {
 impl Probes {
     /// About `count` samples: centroids of a coarse triangulation, of which large triangles, as there are in narrow arms,
     /// are cut up.
-    pub fn new(patch: &ConcavePatch, index: usize, count: usize) -> Result<Self, TessError> {
-        let polygon = patch.domain();
+    pub fn new(surface: &dyn Surface, index: usize, count: usize) -> Result<Self, TessError> {
+        let polygon = surface.domain();
         let spacing = (polygon.signed_area().abs() * 2.3 / count as f64).sqrt() * 1.4;
         let options = TriangulationOptions { angle: 0.3, max_points: 4 * count + polygon.len() };
         let coarse = triangulate(polygon, &|_| spacing, &options)
@@ -47,10 +48,8 @@ impl Probes {
             }
         }
         let locations: Vec<Location> = places.iter().map(|&p| Location::Inside(p)).collect();
-        let wrong = |source| TessError::Patch { patch: index, source };
-        let samples = SampleSet::new(patch.coordinates(), &locations, 2).map_err(wrong)?;
         let mut jets = vec![SurfaceJet::default(); places.len()];
-        patch.evaluate_sample_jets(&samples, &mut jets).map_err(wrong)?;
+        surface.jets(&locations, &mut jets).map_err(|fault| fault.of(index))?;
         Ok(Self { places, areas, jets })
     }
 

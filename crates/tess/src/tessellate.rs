@@ -1,8 +1,6 @@
 use std::collections::HashSet;
 use std::ops::ControlFlow;
 
-use casteljau_domain::Orientation;
-use casteljau_gb::ConcavePatch;
 use casteljau_geom::glam::{DVec2, DVec3};
 use casteljau_mesh::{MeshSink, TriangleMesh};
 
@@ -12,8 +10,9 @@ use crate::model::{Model, fill_in_normals};
 use crate::progress::{Progress, Tell};
 use crate::report::Report;
 use crate::sizing::{Probes, SizeField};
+use crate::surface::{Surface, open};
 use crate::topology::NONE;
-use crate::{Density, Seams, TessError, TessellationOptions};
+use crate::{AsFace, Density, Seams, TessError, TessellationOptions};
 
 /// Least tolerance in units of the largest coordinate: 64 roundings.
 const LEAST_TOLERANCE: f64 = 32.0 * f64::EPSILON;
@@ -26,7 +25,7 @@ const GROWTH: f64 = 0.35;
 /// The longest edges of triangles that are on the whole of size 1.
 const LONGEST: f64 = 1.3;
 
-/// Tessellates patches into one mesh; see the [crate's page](crate) for what it promises.
+/// Tessellates faces, patches of any kind, into one mesh; see the [crate's page](crate) for what it promises.
 ///
 /// `progress` is told the fraction done, from 0 to 1, never going back, and stops the work by [`ControlFlow::Break`].
 ///
@@ -57,13 +56,13 @@ const LONGEST: f64 = 1.3;
 /// assert!(matches!(stopped, Err(TessError::Cancelled { .. })));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn tessellate(
-    patches: &[ConcavePatch],
+pub fn tessellate<F: AsFace>(
+    faces: &[F],
     options: &TessellationOptions,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<(TriangleMesh, Report), TessError> {
     let mut mesh = TriangleMesh::default();
-    let report = tessellate_into(patches, options, &mut mesh, progress)?;
+    let report = tessellate_into(faces, options, &mut mesh, progress)?;
     Ok((mesh, report))
 }
 
@@ -73,26 +72,38 @@ pub fn tessellate(
 ///
 /// # Errors
 /// As [`tessellate`], and whatever the sink refuses.
-pub fn tessellate_into(
-    patches: &[ConcavePatch],
+pub fn tessellate_into<F: AsFace>(
+    faces: &[F],
+    options: &TessellationOptions,
+    sink: &mut dyn MeshSink,
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Report, TessError> {
+    let faces = faces.iter().enumerate();
+    let surfaces: Vec<_> =
+        faces.map(|(index, face)| open(face.as_face(), index)).collect::<Result<_, _>>()?;
+    mesh_into(&surfaces, options, sink, progress)
+}
+
+fn mesh_into(
+    surfaces: &[Box<dyn Surface + '_>],
     options: &TessellationOptions,
     sink: &mut dyn MeshSink,
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Report, TessError> {
     let progress = Progress::new(progress);
     progress.tell(0.0)?;
-    check(patches, options)?;
+    check(surfaces, options)?;
     let limit = options.max_vertices.min(u32::MAX as usize - 1);
     let merge = options.seams == Seams::Merged;
-    let model = Model::new(patches, options.density, limit, merge)?;
+    let model = Model::new(surfaces, options.density, limit, merge)?;
     let mut report = Report::default();
-    model.report(&mut report);
+    model.report(surfaces, &mut report);
 
     let mut all = Collected::new(&model, options.normals);
     let mut taken = model.side_edges();
     let tell = |fraction: f64| progress.tell(fraction);
-    for (index, patch) in patches.iter().enumerate() {
-        progress.part(index, patches.len());
+    for (index, surface) in surfaces.iter().enumerate() {
+        progress.part(index, surfaces.len());
         let outline = &model.outlines[index];
         let others = all.points.len() - outline.points.len().min(all.points.len());
         let request = Request {
@@ -105,8 +116,8 @@ pub fn tessellate_into(
             taken: &taken,
         };
 
-        let draft = fill(patch, outline, request, &tell)?;
-        all.add(patch, &draft, &mut report);
+        let draft = fill(surface.as_ref(), outline, request, &tell)?;
+        all.add(surface.as_ref(), &draft, &mut report);
         let chords = all.chords(&draft);
         taken.extend(chords);
     }
@@ -123,12 +134,11 @@ fn tolerance(density: Density) -> Option<f64> {
     }
 }
 
-fn check(patches: &[ConcavePatch], options: &TessellationOptions) -> Result<(), TessError> {
-    if patches.is_empty() {
+fn check(surfaces: &[Box<dyn Surface + '_>], options: &TessellationOptions) -> Result<(), TessError> {
+    if surfaces.is_empty() {
         return Err(TessError::Empty);
     }
-    let boxes = patches.iter().map(ConcavePatch::bounding_box);
-    let largest = boxes.map(|b| b.max.abs().max(b.min.abs()).max_element()).fold(0.0, f64::max);
+    let largest = surfaces.iter().map(|surface| surface.largest()).fold(0.0, f64::max);
     let least = LEAST_TOLERANCE * largest;
     match options.density {
         Density::Resolution(value @ 0) => Err(TessError::Resolution { value }),
@@ -141,7 +151,7 @@ fn check(patches: &[ConcavePatch], options: &TessellationOptions) -> Result<(), 
 
 /// The mesh of one patch.
 fn fill<'a>(
-    patch: &'a ConcavePatch,
+    surface: &'a dyn Surface,
     outline: &Outline,
     request: Request<'a>,
     tell: &'a Tell<'a>,
@@ -152,10 +162,10 @@ fn fill<'a>(
         limit: request.limit,
     };
     let beyond = |expected: f64| expected.is_nan() || expected > DOUBT * request.room as f64;
-    let vertices = patch.domain().vertices();
+    let vertices = surface.domain().vertices();
     match request.tolerance {
         Some(tolerance) => {
-            let mut probes = Probes::new(patch, request.patch, PROBES[0])?;
+            let mut probes = Probes::new(surface, request.patch, PROBES[0])?;
             let mut plane = probes.evened();
             let mut sizes = probes.sizes(plane, tolerance);
             let mut expected = plane.determinant() * probes.expected(&sizes);
@@ -164,7 +174,7 @@ fn fill<'a>(
             }
             let more = (expected / 8.0).min(PROBES[1] as f64) as usize;
             if more > 2 * PROBES[0] {
-                probes = Probes::new(patch, request.patch, more)?;
+                probes = Probes::new(surface, request.patch, more)?;
                 plane = probes.evened();
                 sizes = probes.sizes(plane, tolerance);
                 expected = plane.determinant() * probes.expected(&sizes);
@@ -176,12 +186,12 @@ fn fill<'a>(
             field.spread(GROWTH);
             let size = |p: DVec2| field.at(p);
             let expected = expected + outline.points.len() as f64;
-            let mut draft = Draft::new(patch, outline, request, plane, &size, expected, tell)?;
+            let mut draft = Draft::new(surface, outline, request, plane, &size, expected, tell)?;
             draft.refine(tolerance)?;
             Ok(draft)
         }
         None => {
-            let probes = Probes::new(patch, request.patch, PROBES[0])?;
+            let probes = Probes::new(surface, request.patch, PROBES[0])?;
             let plane = probes.evened();
             let corners: Vec<DVec2> = vertices.iter().map(|&v| plane * v).collect();
             let field = even_field(&corners, outline);
@@ -192,7 +202,7 @@ fn fill<'a>(
                 return Err(too_many(expected));
             }
             let expected = expected + outline.points.len() as f64;
-            let mut draft = Draft::new(patch, outline, request, plane, &size, expected, tell)?;
+            let mut draft = Draft::new(surface, outline, request, plane, &size, expected, tell)?;
             draft.finish_angles()?;
             Ok(draft)
         }
@@ -243,7 +253,7 @@ impl<'a> Collected<'a> {
         Self { model, points, normals, triangles, known, with_normals }
     }
 
-    fn add(&mut self, patch: &ConcavePatch, draft: &Draft<'_>, report: &mut Report) {
+    fn add(&mut self, surface: &dyn Surface, draft: &Draft<'_>, report: &mut Report) {
         let numbers = &self.model.vertices[draft.request.patch];
         let mut places = Vec::with_capacity(draft.points.len());
         let mut counted: HashSet<u32> = HashSet::new();
@@ -271,7 +281,7 @@ impl<'a> Collected<'a> {
             }
             places.push(place);
         }
-        let clockwise = patch.domain().orientation() == Orientation::Clockwise;
+        let clockwise = surface.clockwise();
         let even: Vec<DVec2> = draft.plane.iter().map(|&p| draft.back * p).collect();
         for (t, &corners) in draft.topology.triangles.iter().enumerate() {
             let mut mapped = corners.map(|v| places[v as usize]);

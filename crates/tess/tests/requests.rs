@@ -24,7 +24,7 @@ fn nonsense_is_refused() {
     let refused = one(&patch, TessellationOptions::resolution(0)).unwrap_err();
     assert_eq!(refused, TessError::Resolution { value: 0 });
     assert_eq!(
-        tessellate(&[], &TessellationOptions::resolution(1), &mut no_progress).unwrap_err(),
+        tessellate::<ConcavePatch>(&[], &TessellationOptions::resolution(1), &mut no_progress).unwrap_err(),
         TessError::Empty
     );
 }

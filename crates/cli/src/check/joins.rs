@@ -12,11 +12,11 @@ use crate::failure::Failure;
 use crate::output::Lines;
 
 /// Ends farther apart than this, in units of the model's size, do not belong together.
-const ENDS: f64 = 1e-6;
+pub(super) const ENDS: f64 = 1e-6;
 /// Curves with common ends that part farther than this, in units of their chord or hull, are different sides.
-const APART: f64 = 1e-2;
+pub(super) const APART: f64 = 1e-2;
 /// The largest gap that still counts as one curve, in units of the model's size.
-const GAP: f64 = 1e-9;
+pub(super) const GAP: f64 = 1e-9;
 /// Ribbons at a larger angle, in degrees, are meant to form a crease.
 const CREASE: f64 = 1e-2;
 /// Ribbons whose normal curvatures differ by more, relative, are not meant to agree in them.
@@ -47,14 +47,14 @@ struct Side<'a> {
 }
 
 pub fn measure(
-    patches: &[ConcavePatch],
+    patches: &[&ConcavePatch],
     numbers: &[usize],
     options: &Check,
 ) -> Result<Vec<JoinLine>, Failure> {
-    let boxes = patches.iter().map(ConcavePatch::bounding_box);
+    let boxes = patches.iter().map(|patch| patch.bounding_box());
     let size = boxes.reduce(|a, b| a.union(&b)).map_or(0.0, |all| all.diagonal());
     let mut sides = Vec::new();
-    for (patch, of) in patches.iter().enumerate() {
+    for (patch, of) in patches.iter().copied().enumerate() {
         for (side, ribbon) in of.ribbons().iter().enumerate() {
             sides.push(Side { patch, side, of, ribbon, curve: of.side_curve(side)? });
         }

@@ -1,6 +1,7 @@
 //! `casteljau check`: does every side keep what it promises?
 
 mod joins;
+mod plain;
 
 use casteljau::gb::{ConcavePatch, ContactLimit, ContinuityReport, Maximum, SideReport};
 use casteljau::geom::UNIT_ROUNDOFF;
@@ -71,10 +72,18 @@ pub fn run(options: &Check, json: bool) -> Result<(), Failure> {
         check_tolerance("--position", position)?;
     }
     let input = Input::read(&options.selection)?;
-    let patches = input.patches()?;
+    let shapes = input.shapes.iter().map(|(_, named)| input.geometry(named));
+    let shapes = shapes.collect::<Result<Vec<_>, _>>()?;
     let mut lines = Lines::new();
     let mut broken = 0_usize;
-    for (named, patch) in input.shapes.iter().zip(&patches) {
+    let (mut patches, mut numbers, mut plain) = (Vec::new(), Vec::new(), Vec::new());
+    for (named, geometry) in input.shapes.iter().zip(&shapes) {
+        let Some(patch) = geometry.as_gb_patch() else {
+            plain.push((named.0, geometry));
+            continue;
+        };
+        numbers.push(named.0);
+        patches.push(patch);
         if !json {
             lines.text(&Input::title(named))?;
             lines.text(&head("  side"))?;
@@ -87,15 +96,20 @@ pub fn run(options: &Check, json: bool) -> Result<(), Failure> {
             if json { lines.json(&line)? } else { side_text(&line, &mut lines)? }
         }
     }
-    let numbers: Vec<usize> = input.shapes.iter().map(|(index, _)| *index).collect();
     let joins = joins::measure(&patches, &numbers, options)?;
-    if !json && !joins.is_empty() {
+    let plain = plain::measure(&plain, options)?;
+    if !json && joins.len() + plain.len() > 0 {
         lines.text("shared sides")?;
         lines.text(&head(&format!("{:<36}", "  shape, side meets shape, side")))?;
+    } else if !json && patches.is_empty() {
+        lines.text("no two ends or edges meet")?;
     }
     for line in &joins {
         broken += usize::from(!line.ok);
         if json { lines.json(line)? } else { joins::text(line, &mut lines)? }
+    }
+    for line in &plain {
+        if json { lines.json(line)? } else { plain::text(line, &mut lines)? }
     }
     lines.finish()?;
     match broken {

@@ -4,98 +4,136 @@ use std::fmt;
 use std::marker::PhantomData;
 
 use serde::de::value::MapAccessDeserializer;
-use serde::de::{MapAccess, Visitor};
+use serde::de::{DeserializeSeed, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
+use super::Shape;
 use super::locate::locate;
 use crate::place::{Step, path_text, shorten};
-use crate::{
-    CenterWeightName, CoordinatesName, CornerPointRecord, GbPatchRecord, IoError, LayoutRecord, Place,
-    Reason, RibbonRecord,
-};
+use crate::record::Fault;
+use crate::{IoError, Place, Reason};
+
+mod anything;
+mod curve;
+mod gb_patch;
+mod net;
+mod patch;
+mod triangle;
 
 /// The kinds of the format that are still to come.
-const KINDS_NOT_YET: [&str; 11] = [
-    "curve",
-    "power_curve",
-    "patch",
-    "power_patch",
-    "triangle",
-    "tetrahedron",
-    "hexahedron",
-    "wedge",
-    "transitional_solid",
-    "rotational_solid",
-    "twisted_solid",
+const KINDS_NOT_YET: [&str; 6] =
+    ["tetrahedron", "hexahedron", "wedge", "transitional_solid", "rotational_solid", "twisted_solid"];
+
+/// The kinds that are read, with the words for them.
+const KINDS: [(&str, Kind); 6] = [
+    ("curve", Kind::Curve),
+    ("power_curve", Kind::PowerCurve),
+    ("patch", Kind::Patch),
+    ("power_patch", Kind::PowerPatch),
+    ("triangle", Kind::Triangle),
+    ("gb_patch", Kind::GbPatch),
 ];
 
+#[derive(Clone, Copy)]
+enum Kind {
+    Curve,
+    PowerCurve,
+    Patch,
+    PowerPatch,
+    Triangle,
+    GbPatch,
+}
+
+/// A name, and the description or what is wrong with it.
+type Described = (Option<String>, Result<Shape, Fault>);
+
+/// The fields of a kind of shape, as they stand in the file.
+trait Fields {
+    /// The name, taken out.
+    fn name(&mut self) -> Option<String>;
+
+    /// Fills in the defaults and brings the net into its order; the steps of a fault start at the shape.
+    fn into_shape(self) -> Result<Shape, Fault>;
+}
+
 /// Name and description of every shape.
-pub(super) fn read(text: &str, file: &str) -> Result<Vec<(Option<String>, GbPatchRecord)>, IoError> {
+pub(super) fn read(text: &str, file: &str) -> Result<Vec<(Option<String>, Shape)>, IoError> {
     if text.trim_ascii().is_empty() {
         return Err(IoError::invalid(Place::line(file, 1), Reason::Empty));
     }
-    check_head(text, file)?;
-    let document: Object<Document> = parse(text).map_err(|fault| fault.into_error(file))?;
-    let records = document.0.shapes.into_iter().enumerate().map(|(index, shape)| {
-        let name = shape.0.name.clone();
-        let record = shape.0.into_record().map_err(|(field, reason)| {
-            refuse(text, file, &[Step::Field("shapes"), Step::Index(index), Step::Field(field)], reason)
+    let kinds = check_head(text, file)?;
+    let shapes = parse(text, Document(&kinds)).map_err(|fault| fault.into_error(file))?;
+    let shapes = shapes.into_iter().enumerate().map(|(index, (name, shape))| {
+        let shape = shape.map_err(|(steps, reason)| {
+            let steps = [vec![Step::Field("shapes"), Step::Index(index)], steps].concat();
+            refuse(text, file, &steps, reason)
         })?;
-        Ok((name, record))
+        Ok((name, shape))
     });
-    records.collect()
+    shapes.collect()
 }
 
 /// Looks at version, kinds and forms alone: a file of another version or kind is named as such, not by the first field
 /// that looks strange here.
-fn check_head(text: &str, file: &str) -> Result<(), IoError> {
-    // A syntax error stands in the same place for both, but here it may hide in a field that is skipped.
-    let head: Object<Head> = parse(text).map_err(|fault| match parse::<Object<Document>>(text) {
-        Err(deeper) if deeper.at() == fault.at() => deeper.into_error(file),
-        _ => fault.into_error(file),
-    })?;
+fn check_head(text: &str, file: &str) -> Result<Vec<Kind>, IoError> {
+    // A syntax error may hide in a field that is skipped here; what skips nothing knows the path to it.
+    let head: Object<Head> =
+        parse(text, PhantomData).map_err(|fault| match parse(text, anything::Anything) {
+            Err(deeper) if deeper.at() == fault.at() => deeper.into_error(file),
+            _ => fault.into_error(file),
+        })?;
     let version = head.0.casteljau;
     if version.as_u64() != Some(1) {
         let found = shorten(&version.to_string(), 40);
         return Err(refuse(text, file, &[Step::Field("casteljau")], Reason::Version { found }));
     }
+    let mut kinds = Vec::with_capacity(head.0.shapes.len());
     for (index, Object(shape)) in head.0.shapes.into_iter().enumerate() {
         let at = |field, reason| {
             refuse(text, file, &[Step::Field("shapes"), Step::Index(index), Step::Field(field)], reason)
         };
-        if KINDS_NOT_YET.contains(&shape.kind.as_str()) {
-            return Err(at("kind", Reason::KindNotYet { kind: shape.kind }));
-        }
-        if shape.kind != "gb_patch" {
-            return Err(at("kind", Reason::KindUnknown { kind: shorten(&shape.kind, 40) }));
-        }
+        let Some((_, kind)) = KINDS.iter().find(|(word, _)| *word == shape.kind) else {
+            let supported = KINDS.map(|(word, _)| format!("`{word}`")).join(", ");
+            let kind = shorten(&shape.kind, 40);
+            let not_yet = KINDS_NOT_YET.contains(&shape.kind.as_str());
+            return Err(at(
+                "kind",
+                match not_yet {
+                    true => Reason::KindNotYet { kind, supported },
+                    false => Reason::KindUnknown { kind, supported },
+                },
+            ));
+        };
+        kinds.push(*kind);
         match shape.form.as_deref() {
             None | Some("concave") => {}
             Some("convex") => return Err(at("form", Reason::FormNotYet { form: "convex".into() })),
             Some(form) => return Err(at("form", Reason::FormUnknown { form: shorten(form, 40) })),
         }
     }
-    Ok(())
+    Ok(kinds)
 }
 
 /// What serde says, and the path it was on.
-struct Fault {
+struct ParseFault {
     path: String,
     error: serde_json::Error,
 }
 
 /// Parses the whole text.
-fn parse<'a, T: Deserialize<'a>>(text: &'a str) -> Result<T, Fault> {
+fn parse<'a, S: DeserializeSeed<'a>>(text: &'a str, seed: S) -> Result<S::Value, ParseFault> {
     let mut json = serde_json::Deserializer::from_str(text);
-    let value = serde_path_to_error::deserialize(&mut json).map_err(|error| {
-        let path = error.path().to_string();
-        Fault { path: if path == "." { String::new() } else { path }, error: error.into_inner() }
-    })?;
-    json.end().map_err(|error| Fault { path: String::new(), error })?;
+    let mut track = serde_path_to_error::Track::new();
+    let value =
+        seed.deserialize(serde_path_to_error::Deserializer::new(&mut json, &mut track)).map_err(|error| {
+            let path = track.path().to_string();
+            ParseFault { path: if path == "." { String::new() } else { path }, error }
+        })?;
+    json.end().map_err(|error| ParseFault { path: String::new(), error })?;
     Ok(value)
 }
 
-impl Fault {
+impl ParseFault {
     /// Line and column, of a text that is no JSON.
     fn at(&self) -> Option<(usize, usize)> {
         (!self.error.is_data()).then(|| (self.error.line(), self.error.column()))
@@ -164,89 +202,89 @@ struct HeadShape {
     form: Option<String>,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Document {
-    #[serde(rename = "casteljau")]
-    _version: u64,
-    shapes: Vec<Object<GbPatch>>,
-}
+/// The whole file, its shapes of the kinds that its head names.
+struct Document<'k>(&'k [Kind]);
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct GbPatch {
-    #[serde(rename = "kind")]
-    _kind: String,
-    #[serde(rename = "form")]
-    _form: Option<String>,
-    name: Option<String>,
-    ribbons: Vec<Object<Ribbon>>,
-    layout: Option<String>,
-    domain: Option<Vec<[f64; 2]>>,
-    coordinates: Option<String>,
-    blend_power: Option<u32>,
-    center: Option<[f64; 3]>,
-    center_weight: Option<String>,
-    #[serde(default)]
-    corner_points: Vec<Object<CornerPoint>>,
+#[serde(field_identifier, rename_all = "snake_case")]
+enum DocumentField {
+    Casteljau,
+    Shapes,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Ribbon {
-    control_points: Vec<Vec<[f64; 3]>>,
-}
+impl<'de> DeserializeSeed<'de> for Document<'_> {
+    type Value = Vec<Described>;
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct CornerPoint {
-    corner: usize,
-    point: [f64; 3],
-}
-
-impl GbPatch {
-    /// Fills in the defaults; names the field that is too much.
-    fn into_record(self) -> Result<GbPatchRecord, (&'static str, Reason)> {
-        let default = GbPatchRecord::default();
-        let layout = match (self.layout, self.domain) {
-            (Some(_), Some(_)) => return Err(("domain", Reason::LayoutAndDomain)),
-            (None, Some(domain)) => LayoutRecord::Given(domain),
-            (word, None) => named("layout", word, &LayoutRecord::WORDS, default.layout)?,
-        };
-        let coordinates =
-            named("coordinates", self.coordinates, &CoordinatesName::WORDS, default.coordinates)?;
-        let center_weight =
-            named("center_weight", self.center_weight, &CenterWeightName::WORDS, default.center_weight)?;
-        let ribbons = self.ribbons.into_iter().map(|r| RibbonRecord { control_points: r.0.control_points });
-        let corners = self
-            .corner_points
-            .into_iter()
-            .map(|c| CornerPointRecord { corner: c.0.corner, point: c.0.point });
-        Ok(GbPatchRecord {
-            ribbons: ribbons.collect(),
-            layout,
-            coordinates,
-            blend_power: self.blend_power.unwrap_or(default.blend_power),
-            center: self.center,
-            center_weight,
-            corner_points: corners.collect(),
-        })
+    fn deserialize<D: Deserializer<'de>>(self, json: D) -> Result<Self::Value, D::Error> {
+        json.deserialize_map(self)
     }
 }
 
-/// The value that a word stands for.
-fn named<T: Clone>(
-    field: &'static str,
-    word: Option<String>,
-    known: &[(&'static str, T)],
-    default: T,
-) -> Result<T, (&'static str, Reason)> {
-    let Some(word) = word else { return Ok(default) };
-    match known.iter().find(|(name, _)| *name == word) {
-        Some((_, value)) => Ok(value.clone()),
-        None => {
-            let known = known.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
-            Err((field, Reason::Word { found: shorten(&word, 40), known }))
+impl<'de> Visitor<'de> for Document<'_> {
+    type Value = Vec<Described>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("an object")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+        // The head has found each field once.
+        let mut shapes = Vec::new();
+        while let Some(field) = map.next_key()? {
+            match field {
+                DocumentField::Casteljau => drop(map.next_value::<u64>()?),
+                DocumentField::Shapes => shapes = map.next_value_seed(Shapes(self.0))?,
+            }
+        }
+        Ok(shapes)
+    }
+}
+
+/// The array of shapes.
+struct Shapes<'k>(&'k [Kind]);
+
+impl<'de> DeserializeSeed<'de> for Shapes<'_> {
+    type Value = Vec<Described>;
+
+    fn deserialize<D: Deserializer<'de>>(self, json: D) -> Result<Self::Value, D::Error> {
+        json.deserialize_seq(self)
+    }
+}
+
+impl<'de> Visitor<'de> for Shapes<'_> {
+    type Value = Vec<Described>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("an array")
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Self::Value, A::Error> {
+        let mut shapes = Vec::with_capacity(self.0.len());
+        for kind in self.0 {
+            shapes.extend(seq.next_element_seed(*kind)?);
+        }
+        Ok(shapes)
+    }
+}
+
+impl<'de> DeserializeSeed<'de> for Kind {
+    type Value = Described;
+
+    fn deserialize<D: Deserializer<'de>>(self, json: D) -> Result<Described, D::Error> {
+        match self {
+            Self::Curve => described::<curve::Curve, D>(json),
+            Self::PowerCurve => described::<curve::PowerCurve, D>(json),
+            Self::Patch => described::<patch::Patch, D>(json),
+            Self::PowerPatch => described::<patch::PowerPatch, D>(json),
+            Self::Triangle => described::<triangle::Triangle, D>(json),
+            Self::GbPatch => described::<gb_patch::GbPatch, D>(json),
         }
     }
+}
+
+fn described<'de, F: Fields + Deserialize<'de>, D: Deserializer<'de>>(
+    json: D,
+) -> Result<Described, D::Error> {
+    let Object(mut fields) = Object::<F>::deserialize(json)?;
+    Ok((fields.name(), fields.into_shape()))
 }

@@ -1,9 +1,12 @@
 //! Random descriptions for the round trips.
 #![allow(dead_code, clippy::unwrap_used)]
 
+mod classical;
+
 use casteljau_io::{
     CenterWeightName, CoordinatesName, CornerPointRecord, GbPatchRecord, LayoutRecord, RibbonRecord,
 };
+pub use classical::classical;
 use proptest::prelude::*;
 
 /// Finite numbers that hunt for bad printing and reading: every exponent, neighbours of powers of ten and of integers,

@@ -154,3 +154,15 @@ pub fn shared_model(name: &str) -> Option<ConcavePatch> {
 pub fn regular(n: usize) -> Polygon {
     layout::regular(n).unwrap()
 }
+
+/// A four-sided patch on the side y < 0 of a curve from x = 0 to x = 3, which is its first side, run backwards.
+pub fn patch_with_side(rim: &[DVec3; 4]) -> ConcavePatch {
+    let [start, .., end] = *rim;
+    let back: Vec<DVec3> = rim.iter().rev().copied().collect();
+    let line = |a: DVec3, b: DVec3| Ribbon::new(1, 1, vec![a, b]).unwrap();
+    let (left, right) = (start - DVec3::Y, end - DVec3::Y);
+    let ribbons =
+        vec![Ribbon::new(3, 1, back).unwrap(), line(start, left), line(left, right), line(right, end)];
+    let builder = ConcavePatch::builder(ribbons).layout(LayoutKind::Regular);
+    builder.coordinates(CoordinateKind::MeanValue).build().unwrap()
+}

@@ -1,12 +1,10 @@
-//! `casteljau info`: what is in a file.
-
 use casteljau::gb::{ConcavePatch, Ribbon};
+use casteljau::io::model::NamedShape;
 use casteljau::tess::{TessellationOptions, tessellate};
 use serde::Serialize;
 
-use crate::arguments::Selection;
+use super::Bounds;
 use crate::failure::Failure;
-use crate::input::Input;
 use crate::number::{brief, human, tuple};
 use crate::output::Lines;
 use crate::progress::Progress;
@@ -15,16 +13,9 @@ use crate::words;
 /// Samples a side of the coarser of the two meshes that area and volume are found from.
 const RESOLUTION: usize = 32;
 
-/// A box.
-#[derive(Serialize)]
-struct Bounds {
-    min: [f64; 3],
-    max: [f64; 3],
-}
-
 /// A GB patch. `bounds` is the box of its control points; `area_error` an estimate; an open shape has no volume.
 #[derive(Serialize)]
-struct Description {
+pub struct Description {
     shape: usize,
     kind: &'static str,
     name: Option<String>,
@@ -45,56 +36,46 @@ struct Description {
     volume: Option<f64>,
 }
 
-pub fn run(options: &Selection, json: bool) -> Result<(), Failure> {
-    let input = Input::read(options)?;
-    let mut lines = Lines::new();
-    let mut patches = Vec::new();
-    for named in &input.shapes {
-        let (shape, patch) = (named.0, input.patch(&named.1)?);
-        let ([area, area_error], volume) = measures(std::slice::from_ref(&patch), &input.name)?;
-        let bounds = patch.bounding_box();
-        let description = Description {
-            shape,
-            kind: named.1.shape.kind(),
-            name: named.1.name.clone(),
-            sides: patch.sides(),
-            degrees: patch.ribbons().iter().map(Ribbon::degree).collect(),
-            layers: patch.ribbons().iter().map(Ribbon::layers).collect(),
-            blend_power: patch.blend_power(),
-            layout: words::layout(&patch),
-            coordinates: words::coordinates(&patch),
-            certificate: patch.coordinates().certificate(),
-            center: patch.center().map(|p| p.to_array()),
-            center_weight: words::center_weight(&patch),
-            corner_points: patch.corner_points().len(),
-            continuity: patch.continuity().iter().map(|c| format!("G{}", c.geometric())).collect(),
-            bounds: Bounds { min: bounds.min.to_array(), max: bounds.max.to_array() },
-            area,
-            area_error,
-            volume: volume.map(|[volume, _]| volume),
-        };
-        match json {
-            true => lines.json(&description)?,
-            false => text(&description, &Input::title(named), &mut lines)?,
-        }
-        patches.push(patch);
-    }
-    if !json && patches.len() > 1 {
-        whole(&patches, &input, &mut lines)?;
-    }
-    lines.finish()
+pub fn describe(
+    shape: usize,
+    named: &NamedShape,
+    patch: &ConcavePatch,
+    file: &str,
+) -> Result<Description, Failure> {
+    let ([area, area_error], volume) = measures(&[patch], file)?;
+    Ok(Description {
+        shape,
+        kind: named.shape.kind(),
+        name: named.name.clone(),
+        sides: patch.sides(),
+        degrees: patch.ribbons().iter().map(Ribbon::degree).collect(),
+        layers: patch.ribbons().iter().map(Ribbon::layers).collect(),
+        blend_power: patch.blend_power(),
+        layout: words::layout(patch),
+        coordinates: words::coordinates(patch),
+        certificate: patch.coordinates().certificate(),
+        center: patch.center().map(|p| p.to_array()),
+        center_weight: words::center_weight(patch),
+        corner_points: patch.corner_points().len(),
+        continuity: patch.continuity().iter().map(|c| format!("G{}", c.geometric())).collect(),
+        bounds: patch.bounding_box().into(),
+        area,
+        area_error,
+        volume: volume.map(|[volume, _]| volume),
+    })
 }
 
 /// A number and an estimate of its error.
 type Estimate = [f64; 2];
 
 /// Area, and the volume of what is closed, from meshes of two resolutions: inscribed triangles miss O(h²).
-fn measures(patches: &[ConcavePatch], name: &str) -> Result<(Estimate, Option<Estimate>), Failure> {
+fn measures(patches: &[&ConcavePatch], name: &str) -> Result<(Estimate, Option<Estimate>), Failure> {
     let mut progress = Progress::new("measuring");
+    let patches: Vec<ConcavePatch> = patches.iter().copied().cloned().collect();
     let mut at = |resolution: usize, [from, to]: [f64; 2]| -> Result<(f64, Option<f64>), Failure> {
         let options = TessellationOptions { normals: false, ..TessellationOptions::resolution(resolution) };
         let mut tell = |fraction: f64| progress.tell(from + (to - from) * fraction);
-        let (mesh, report) = tessellate(patches, &options, &mut tell)
+        let (mesh, report) = tessellate(&patches, &options, &mut tell)
             .map_err(|error| Failure::Bad(format!("{name}: {error}")))?;
         let volume = if report.is_closed() { Some(mesh.signed_volume()?) } else { None };
         Ok((mesh.area()?, volume))
@@ -114,8 +95,8 @@ fn estimate([value, error]: Estimate) -> String {
 }
 
 /// What the shapes of a file are together; a line for a person only.
-fn whole(patches: &[ConcavePatch], input: &Input, lines: &mut Lines) -> Result<(), Failure> {
-    let (area, volume) = measures(patches, &input.name)?;
+pub fn whole(patches: &[&ConcavePatch], file: &str, lines: &mut Lines) -> Result<(), Failure> {
+    let (area, volume) = measures(patches, file)?;
     let count = patches.len();
     lines.text(&match volume {
         Some(volume) => {
@@ -125,7 +106,7 @@ fn whole(patches: &[ConcavePatch], input: &Input, lines: &mut Lines) -> Result<(
     })
 }
 
-fn text(description: &Description, title: &str, lines: &mut Lines) -> Result<(), Failure> {
+pub fn text(description: &Description, title: &str, lines: &mut Lines) -> Result<(), Failure> {
     let list = |values: &[usize]| {
         let words: Vec<String> = values.iter().map(usize::to_string).collect();
         words.join(" ")

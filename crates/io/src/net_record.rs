@@ -1,0 +1,115 @@
+use casteljau_geom::GeomError;
+use casteljau_geom::Interval;
+use casteljau_geom::glam::{DVec3, DVec4};
+use casteljau_shape::{BezierCurve, BezierPatch, BezierTriangle, Curve, Patch, ShapeError, Triangle};
+
+use crate::Reason;
+use crate::place::Step;
+use crate::record::Fault;
+
+/// The control points of a curve, a patch or a triangle as a file gives them, flat, in the order of the net.
+///
+/// Points with weights stay apart here: multiplying them would round, and a file would not be written as it was read.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NetRecord {
+    /// `control_points`: a polynomial shape.
+    Points(Vec<[f64; 3]>),
+    /// `control_points` and `weights`, as many of one as of the other: a rational shape.
+    Weighted {
+        /// The control points.
+        points: Vec<[f64; 3]>,
+        /// Their weights.
+        weights: Vec<f64>,
+    },
+    /// `homogeneous`: (w·x, w·y, w·z, w), a rational shape.
+    Homogeneous(Vec<[f64; 4]>),
+}
+
+impl NetRecord {
+    /// The number of control points.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Points(points) | Self::Weighted { points, .. } => points.len(),
+            Self::Homogeneous(points) => points.len(),
+        }
+    }
+
+    /// Whether there are no control points.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The field that holds the points.
+    pub(crate) fn field(&self) -> &'static str {
+        match self {
+            Self::Points(_) | Self::Weighted { .. } => "control_points",
+            Self::Homogeneous(_) => "homogeneous",
+        }
+    }
+
+    /// What the shape's constructor says of this net, at the field, the control point or the coordinate it is about.
+    ///
+    /// `row` is the length of a row where the file nests rows.
+    pub(crate) fn fault(&self, error: ShapeError, row: Option<usize>) -> Fault {
+        let at = |field, place: usize| match row {
+            Some(row) => vec![Step::Field(field), Step::Index(place / row), Step::Index(place % row)],
+            None => vec![Step::Field(field), Step::Index(place)],
+        };
+        let steps = match (error, self) {
+            // Three is the weight; with points apart, a coordinate may be the product of both.
+            (ShapeError::Coordinate { place, axis: 3, .. }, Self::Weighted { .. }) => at("weights", place),
+            (ShapeError::Coordinate { place, axis, .. }, _) => {
+                [at(self.field(), place), vec![Step::Index(axis)]].concat()
+            }
+            (ShapeError::WeightCount { .. } | ShapeError::NoWeight { .. }, Self::Weighted { .. }) => {
+                vec![Step::Field("weights")]
+            }
+            (ShapeError::Degree { .. }, _) => vec![Step::Field("degree")],
+            _ => vec![Step::Field(self.field())],
+        };
+        (steps, Reason::Shape(Box::new(error)))
+    }
+}
+
+/// Points in memory as files have them.
+pub(crate) fn points(points: &[DVec3]) -> Vec<[f64; 3]> {
+    points.iter().map(DVec3::to_array).collect()
+}
+
+/// Points of files as shapes take them.
+pub(crate) fn vectors(points: &[[f64; 3]]) -> Vec<DVec3> {
+    points.iter().copied().map(DVec3::from).collect()
+}
+
+/// Homogeneous points of files as shapes take them.
+pub(crate) fn homogeneous(points: &[[f64; 4]]) -> Vec<DVec4> {
+    points.iter().copied().map(DVec4::from).collect()
+}
+
+/// The interval that a field gives.
+pub(crate) fn interval([start, end]: [f64; 2], steps: &[Step]) -> Result<Interval, Fault> {
+    Interval::new(start, end).map_err(|error: GeomError| (steps.to_vec(), Reason::Interval(error)))
+}
+
+macro_rules! from_shapes {
+    ($($polynomial:ty, $rational:ty;)*) => {$(
+        impl From<&$polynomial> for NetRecord {
+            fn from(shape: &$polynomial) -> Self {
+                Self::Points(points(shape.control_points()))
+            }
+        }
+
+        /// Homogeneous: dividing by the weights would round.
+        impl From<&$rational> for NetRecord {
+            fn from(shape: &$rational) -> Self {
+                Self::Homogeneous(shape.control_points().iter().map(DVec4::to_array).collect())
+            }
+        }
+    )*};
+}
+
+from_shapes! {
+    Curve, BezierCurve<DVec4>;
+    Patch, BezierPatch<DVec4>;
+    Triangle, BezierTriangle<DVec4>;
+}
