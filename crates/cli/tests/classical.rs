@@ -105,10 +105,8 @@ fn eval_of_curves_has_frames() {
     let straight = json!({"kind": "curve", "degree": 1, "control_points": [[0, 0, 0], [3, 4, 0]]});
     let line =
         with_input(&["eval", "-", "--json", "--at", "0.5"], &single(&straight)).good().json().remove(0);
-    assert_eq!(
-        (&line["tangent"], &line["curvature"], &line["torsion"]),
-        (&json!([0.6, 0.8, 0.0]), &json!(0.0), &Value::Null)
-    );
+    near(&numbers(&line["tangent"]), &[0.6, 0.8, 0.0], 1e-15);
+    assert_eq!((&line["curvature"], &line["torsion"]), (&json!(0.0), &Value::Null));
     let point = json!({"kind": "curve", "degree": 0, "control_points": [[1, 2, 3]]});
     let line = with_input(&["eval", "-", "--json", "--at", "7"], &single(&point)).good().json().remove(0);
     assert_eq!(
@@ -279,13 +277,13 @@ fn convert_changes_basis_degree_and_format() {
 fn surfaces_are_meshed_and_curves_are_not() {
     let folder = tempfile::tempdir().unwrap();
     let out = path(&folder.path().join("torus.obj"));
-    let line = casteljau(&["mesh", &model("torus.json"), "-o", &out, "--resolution", "8", "--json"])
+    let line = casteljau(&["mesh", &model("torus.json"), "-o", &out, "--resolution", "16", "--json"])
         .good()
         .json()
         .remove(0);
     assert_eq!((&line["closed"], &line["shapes"]), (&json!(true), &json!(16)));
     // 2π² R r², less what inscribed faces miss.
-    near(&[number(&line["volume"])], &[6.0 * PI * PI], 0.03 * 6.0 * PI * PI);
+    near(&[number(&line["volume"])], &[6.0 * PI * PI], 0.015 * 6.0 * PI * PI);
     casteljau(&["mesh", &model("circle.json"), "-o", &path(&folder.path().join("c.stl"))])
         .bad(1, &["circle.json:"]);
 }

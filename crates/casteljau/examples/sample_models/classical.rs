@@ -104,7 +104,7 @@ fn twisted_cubic() -> Result<Model, ShapeError> {
 /// Two cubics that join with continuous curvature, and not with equal second derivatives.
 fn curvature_pair() -> Result<Model, ShapeError> {
     let first = Curve::new([DVec3::ZERO, dvec3(1.0, 2.0, 0.0), dvec3(3.0, 3.0, 1.0), dvec3(5.0, 3.0, 1.0)])?;
-    let second = first.continued_with_curvature(0.5, 1.0, &[dvec3(8.0, 0.0, 2.0)])?;
+    let second = first.continued_with_curvature(0.5, 0.25, &[dvec3(8.0, 0.0, 2.0)])?;
     let shape = |curve: &Curve| Shape::Curve(curve.into());
     Ok(Model {
         shapes: vec![
