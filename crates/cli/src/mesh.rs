@@ -13,6 +13,7 @@ use crate::failure::Failure;
 use crate::input::{Input, is_dash};
 use crate::number::{brief, human, optional};
 use crate::output::{Lines, write};
+use crate::polylines;
 use crate::progress::Progress;
 
 /// The default tolerance, in units of the model's size.
@@ -50,6 +51,9 @@ pub fn run(options: &Mesh, json: bool) -> Result<(), Failure> {
     let input = Input::read(&options.selection)?;
     let shapes = input.shapes.iter().map(|(_, named)| input.geometry(named));
     let shapes = shapes.collect::<Result<Vec<_>, _>>()?;
+    if shapes.iter().all(|shape| shape.as_curve().is_some()) {
+        return polylines::run(options, &input, &shapes, format, json);
+    }
     let faces = faces(&input, &shapes)?;
     let tessellation = tessellation(options, &shapes);
     let mut progress = Progress::new("meshing");

@@ -274,7 +274,7 @@ fn convert_changes_basis_degree_and_format() {
 }
 
 #[test]
-fn surfaces_are_meshed_and_curves_are_not() {
+fn surfaces_are_meshed() {
     let folder = tempfile::tempdir().unwrap();
     let out = path(&folder.path().join("torus.obj"));
     let line = casteljau(&["mesh", &model("torus.json"), "-o", &out, "--resolution", "16", "--json"])
@@ -284,6 +284,28 @@ fn surfaces_are_meshed_and_curves_are_not() {
     assert_eq!((&line["closed"], &line["shapes"]), (&json!(true), &json!(16)));
     // 2π² R r², less what inscribed faces miss.
     near(&[number(&line["volume"])], &[6.0 * PI * PI], 0.015 * 6.0 * PI * PI);
-    casteljau(&["mesh", &model("circle.json"), "-o", &path(&folder.path().join("c.stl"))])
-        .bad(1, &["circle.json:"]);
+}
+
+#[test]
+fn curves_become_polylines() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| path(&folder.path().join(name));
+    let circle = model("circle.json");
+    let mesh = |out: &str| casteljau(&["mesh", &circle, "-o", &at(out), "--resolution", "100", "--json"]);
+    let line = mesh("c.obj").good().json().remove(0);
+    assert_eq!((&line["vertices"], &line["edges"]), (&json!(101), &json!(100)));
+    near(&[number(&line["length"])], &[TAU], 0.01);
+    let text = std::fs::read_to_string(at("c.obj")).unwrap();
+    assert_eq!(text.lines().filter(|line| line.starts_with("v ")).count(), 101);
+    assert!(text.lines().last().unwrap().starts_with("l 1 2 3 "));
+    mesh("c.ply").good();
+    let bytes = std::fs::read(at("c.ply")).unwrap();
+    let end = b"end_header\n";
+    let start = bytes.windows(end.len()).position(|window| window == end).unwrap() + end.len();
+    assert_eq!(bytes.len() - start, 101 * 24 + 100 * 8);
+    mesh("c.stl").bad(1, &["c.stl: curves have no triangles"]);
+    casteljau(&["mesh", &circle, "-o", &at("c.obj")]).bad(2, &["--resolution"]);
+    let huge = usize::MAX.to_string();
+    casteljau(&["mesh", &circle, "-o", &at("c.obj"), "--resolution", &huge])
+        .bad(1, &["vertices are more than"]);
 }
