@@ -64,7 +64,7 @@ impl SurfaceJet {
     /// ```
     /// use casteljau_geom::{SurfaceJet, glam::DVec3};
     /// let cylinder = SurfaceJet { du: DVec3::X, dv: DVec3::Y, duu: DVec3::Z, ..SurfaceJet::default() };
-    /// assert_eq!(cylinder.normal_curvature(DVec3::new(1.0, 1.0, 0.0)), Some(0.5));
+    /// assert_eq!(cylinder.normal_curvature(DVec3::X), Some(1.0));
     /// ```
     #[must_use]
     pub fn normal_curvature(&self, direction: DVec3) -> Option<f64> {

@@ -1,4 +1,17 @@
-//! Bézier curves and patches: control points that are checked once, and jets of them.
+//! Bézier curves, patches and triangles, polynomial and rational: control points that are checked once, and
+//! everything that is asked of them.
+//!
+//! | | polynomial | rational | power basis |
+//! | --- | --- | --- | --- |
+//! | curve | [`Curve`] | [`RationalCurve`] | [`PowerCurve`] |
+//! | tensor-product patch | [`Patch`] | [`RationalPatch`] | [`PowerPatch`] |
+//! | triangle | [`Triangle`] | [`RationalTriangle`] | |
+//!
+//! A polynomial shape and its rational twin are one generic type ([`BezierCurve`], [`BezierPatch`],
+//! [`BezierTriangle`]): rational control points are homogeneous, and one quotient rule ends every evaluation.
+//! [`ParametricCurve`] and [`ParametricSurface`] are what all kinds answer: point, jets of any order, normal,
+//! curvatures, area. Circles and conics are made by [`RationalCurve`], quadrics by [`RationalPatch`]. How two shapes
+//! meet is measured by [`JoinReport`].
 //!
 //! ```
 //! use casteljau_shape::{Curve, geom::glam::DVec3};
@@ -6,6 +19,15 @@
 //! assert_eq!(parabola.point(0.5), DVec3::new(0.5, 0.25, 0.0));
 //! let exact = 5_f64.sqrt() / 2.0 + 2_f64.asinh() / 4.0;
 //! assert!((parabola.arc_length(1e-12)? - exact).abs() < 1e-12 * exact);
+//! # Ok::<(), casteljau_shape::ShapeError>(())
+//! ```
+//!
+//! ```
+//! use casteljau_shape::{ParametricSurface, RationalPatch, geom::glam::DVec3};
+//! let octant = RationalPatch::sphere_octant(DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z)?;
+//! assert!((octant.try_curvatures(0.3, 0.6)?.gaussian - 1.0).abs() < 1e-12);
+//! // At the pole an edge collapses; the normal is the limit.
+//! assert!(octant.normal(0.3, 1.0)?.distance(DVec3::Z) < 1e-15);
 //! # Ok::<(), casteljau_shape::ShapeError>(())
 //! ```
 

@@ -33,7 +33,7 @@ impl<P: ControlPoint> BezierCurve<P> {
     ///
     /// # Errors
     /// [`ShapeError::Construction`] unless the tolerance is positive, [`ShapeError::Unbounded`] where there is a
-    /// pole, [`ShapeError::Kernel`] never.
+    /// pole.
     pub fn tight_box(&self, tolerance: f64) -> Result<BoundingBox, ShapeError> {
         tight_box(self.control_points(), &Grid([self.degree()]), tolerance)
     }

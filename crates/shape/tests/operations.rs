@@ -3,7 +3,7 @@
 
 mod support;
 
-use casteljau_geom::glam::{DVec3, DVec4};
+use casteljau_geom::glam::{DAffine3, DMat3, DVec3, DVec4};
 use casteljau_geom::{Interval, UNIT_ROUNDOFF, laws};
 use casteljau_shape::{
     Curve, ParametricCurve, ParametricSurface, Patch, PatchEdge, PowerCurve, PowerPatch, RationalCurve,
@@ -238,6 +238,25 @@ proptest! {
         let size = triangle.hull_box().unwrap().diagonal();
         let tight = triangle.tight_box(1e-4 * size + f64::MIN_POSITIVE).unwrap();
         prop_assert!(tight.grown(1e-11 * size + f64::MIN_POSITIVE).contains(at(u, v)));
+    }
+
+    /// Mapping the control points maps the shape, at scales from 1e-6 to 1e6, whatever the weights.
+    #[test]
+    fn affine_invariance(points in vec(space_point(), 15), weights in vec(weight(), 15), entries in vec(-2.0..2.0, 9), shift in space_point(), exponent in -6..=6i32, u in 0.0..=0.5, v in 0.0..=0.5) {
+        let scale = 10_f64.powi(exponent);
+        let map = DAffine3 { matrix3: DMat3::from_cols_slice(&entries) * scale, translation: shift * scale };
+        // The map multiplies lengths by at most 6 times the scale; both evaluations and the map round.
+        let far = shift.length() * scale;
+        let tolerance = |w: &[f64]| 12.0 * scale * allowed(&points, w, 4) + 12.0 * allowed(&[DVec3::X * far], w, 4);
+        let gentle: Vec<f64> = weights.iter().map(|w| w.clamp(0.25, 4.0)).collect();
+        laws::affine_invariance_law(&points[..5], map, |p| Curve::new(p).unwrap().point(u), tolerance(&[1.0])).unwrap();
+        laws::affine_invariance_law(&points, map, |p| Patch::new([2, 4], p).unwrap().point(u, v), 4.0 * tolerance(&[1.0])).unwrap();
+        laws::affine_invariance_law(&points, map, |p| Triangle::new(4, p).unwrap().point(u, v), 4.0 * tolerance(&[1.0])).unwrap();
+        for w in [&weights, &gentle] {
+            laws::affine_invariance_law(&points[..5], map, |p| RationalCurve::new(p, &w[..5]).unwrap().point(u).unwrap(), tolerance(w)).unwrap();
+            laws::affine_invariance_law(&points, map, |p| RationalPatch::new([4, 2], p, w).unwrap().point(u, v).unwrap(), 4.0 * tolerance(w)).unwrap();
+            laws::affine_invariance_law(&points, map, |p| RationalTriangle::new(4, p, w).unwrap().point(u, v).unwrap(), 4.0 * tolerance(w)).unwrap();
+        }
     }
 
     /// Both bases are one polynomial, over any interval.
