@@ -16,7 +16,7 @@ pub enum Error {
     /// Meshes.
     #[error(transparent)]
     Mesh(#[from] casteljau_mesh::MeshError),
-    /// Curves and patches.
+    /// Curves, patches and triangles.
     #[error(transparent)]
     Shape(#[from] casteljau_shape::ShapeError),
     /// Polygons, layouts, coordinates.

@@ -1,6 +1,8 @@
 //! The sample models in `models/`: as designed, sound, and smooth where they should be.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+#[path = "../examples/sample_models/classical.rs"]
+mod classical;
 #[path = "../examples/sample_models/designs.rs"]
 mod designs;
 #[path = "../examples/sample_models/guide.rs"]
@@ -27,7 +29,7 @@ fn patches(name: &str) -> Vec<ConcavePatch> {
 /// `cargo run -p casteljau --example sample_models -- models` mends it.
 #[test]
 fn the_files_are_what_the_generator_writes() {
-    for (name, design) in designs::all() {
+    for (name, design) in designs::all().into_iter().chain(classical::all().unwrap()) {
         let path = folder().join(name);
         assert_eq!(read_model_file(&path).unwrap().0, design, "{name}");
         let mut text = Vec::new();
@@ -110,5 +112,27 @@ fn the_pair_shares_a_side_to_the_bit() {
         };
         let angle = angle_degrees(normal(&arm, 1, t), normal(&end, 0, 1.0 - t));
         assert!(angle < 1e-4, "{angle}");
+    }
+}
+
+#[test]
+fn quadrics_are_what_their_names_say() {
+    let surfaces = |name: &str| {
+        let (model, _) = read_model_file(&folder().join(name)).unwrap();
+        model.shapes.iter().map(|shape| shape.to_geometry().unwrap()).collect::<Vec<_>>()
+    };
+    for (name, count) in [("sphere.json", 8), ("torus.json", 16), ("octant.json", 1)] {
+        let all = surfaces(name);
+        assert_eq!(all.len(), count);
+        for surface in &all {
+            for (u, v) in [(0.0, 0.3), (0.25, 0.5), (0.1, 0.8)] {
+                let p = surface.as_surface().unwrap().try_point(u, v).unwrap();
+                let from_tube = match name {
+                    "torus.json" => p - p.with_z(0.0).normalize() * 3.0,
+                    _ => p,
+                };
+                assert!((from_tube.length() - 1.0).abs() < 1e-14, "{name} at ({u}, {v}): {p}");
+            }
+        }
     }
 }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use casteljau::io::model::{Model, NamedShape, Shape};
 use casteljau::io::{Geometry, IoError, ModelFormat, vtu, write_model};
+use casteljau::shape::ShapeError;
 
 use crate::arguments::{BasisName, Convert, ModelFormatName};
 use crate::failure::Failure;
@@ -66,19 +67,26 @@ fn of_path(path: &Path) -> Result<Format, Failure> {
     }
 }
 
+/// What a shape refuses, at its place in the file.
+fn placed(named: &NamedShape) -> impl Fn(ShapeError) -> Failure + use<> {
+    let place = named.place();
+    move |error| Failure::Bad(format!("{place}: {error}"))
+}
+
 /// The shape in a basis; one that has it is left as it is.
 fn in_basis(named: NamedShape, basis: BasisName) -> Result<NamedShape, Failure> {
     let refused = |what: &str| Err(Failure::Bad(format!("{}: {what} has no power basis", named.place())));
+    let refuse = placed(&named);
     let shape = match (basis, &named.shape) {
         (_, Shape::GbPatch(_)) => return Ok(named),
         (BasisName::Bezier, _) => match named.to_geometry()? {
-            Geometry::PowerCurve(curve) => Shape::Curve((&curve.to_bezier()?).into()),
-            Geometry::PowerPatch(patch) => Shape::Patch((&patch.to_bezier()?).into()),
+            Geometry::PowerCurve(curve) => Shape::Curve((&curve.to_bezier().map_err(&refuse)?).into()),
+            Geometry::PowerPatch(patch) => Shape::Patch((&patch.to_bezier().map_err(&refuse)?).into()),
             _ => return Ok(named),
         },
         (BasisName::Power, _) => match named.to_geometry()? {
-            Geometry::Curve(curve) => Shape::PowerCurve((&curve.to_power()?).into()),
-            Geometry::Patch(patch) => Shape::PowerPatch((&patch.to_power()?).into()),
+            Geometry::Curve(curve) => Shape::PowerCurve((&curve.to_power().map_err(&refuse)?).into()),
+            Geometry::Patch(patch) => Shape::PowerPatch((&patch.to_power().map_err(&refuse)?).into()),
             Geometry::RationalCurve(_) => return refused("a rational curve"),
             Geometry::RationalPatch(_) => return refused("a rational patch"),
             Geometry::Triangle(_) | Geometry::RationalTriangle(_) => return refused("a triangle"),
@@ -90,18 +98,25 @@ fn in_basis(named: NamedShape, basis: BasisName) -> Result<NamedShape, Failure> 
 
 fn elevated(named: NamedShape, by: usize) -> Result<NamedShape, Failure> {
     let refused = |what: &str| Err(Failure::Bad(format!("{}: {what}", named.place())));
+    let refuse = placed(&named);
     let shape = match named.shape {
         Shape::GbPatch(_) => return refused("concave GB patches are not elevated yet"),
         Shape::PowerCurve(_) | Shape::PowerPatch(_) => {
             return refused("a power basis needs no higher degree; give --to bezier");
         }
         _ => match named.to_geometry()? {
-            Geometry::Curve(curve) => Shape::Curve((&curve.elevated(by)?).into()),
-            Geometry::RationalCurve(curve) => Shape::Curve((&curve.elevated(by)?).into()),
-            Geometry::Patch(patch) => Shape::Patch((&patch.elevated([by; 2])?).into()),
-            Geometry::RationalPatch(patch) => Shape::Patch((&patch.elevated([by; 2])?).into()),
-            Geometry::Triangle(triangle) => Shape::Triangle((&triangle.elevated(by)?).into()),
-            Geometry::RationalTriangle(triangle) => Shape::Triangle((&triangle.elevated(by)?).into()),
+            Geometry::Curve(curve) => Shape::Curve((&curve.elevated(by).map_err(&refuse)?).into()),
+            Geometry::RationalCurve(curve) => Shape::Curve((&curve.elevated(by).map_err(&refuse)?).into()),
+            Geometry::Patch(patch) => Shape::Patch((&patch.elevated([by; 2]).map_err(&refuse)?).into()),
+            Geometry::RationalPatch(patch) => {
+                Shape::Patch((&patch.elevated([by; 2]).map_err(&refuse)?).into())
+            }
+            Geometry::Triangle(triangle) => {
+                Shape::Triangle((&triangle.elevated(by).map_err(&refuse)?).into())
+            }
+            Geometry::RationalTriangle(triangle) => {
+                Shape::Triangle((&triangle.elevated(by).map_err(&refuse)?).into())
+            }
             _ => return Ok(named),
         },
     };

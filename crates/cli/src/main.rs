@@ -16,6 +16,7 @@ mod number;
 mod output;
 mod parameters;
 mod plot;
+mod polylines;
 mod progress;
 mod words;
 

@@ -1,10 +1,11 @@
 //! `casteljau mesh`: from a model to a mesh file.
 
-use casteljau::gb::ConcavePatch;
 use casteljau::geom::BoundingBox;
-use casteljau::io::{MeshFormat, obj, off, ply, stl};
+use casteljau::io::model::NamedShape;
+use casteljau::io::{Geometry, MeshFormat, obj, off, ply, stl};
 use casteljau::mesh::TriangleMesh;
-use casteljau::tess::{Density, Seams, TessellationOptions, tessellate};
+use casteljau::shape::SurfaceDomain;
+use casteljau::tess::{Density, Face, Seams, TessellationOptions, tessellate};
 use serde::Serialize;
 
 use crate::arguments::{Mesh, MeshFormatName};
@@ -12,6 +13,7 @@ use crate::failure::Failure;
 use crate::input::{Input, is_dash};
 use crate::number::{brief, human, optional};
 use crate::output::{Lines, write};
+use crate::polylines;
 use crate::progress::Progress;
 
 /// The default tolerance, in units of the model's size.
@@ -47,10 +49,15 @@ pub fn run(options: &Mesh, json: bool) -> Result<(), Failure> {
         false => MeshFormat::of_path(&options.output)?,
     };
     let input = Input::read(&options.selection)?;
-    let patches = input.patches()?;
-    let tessellation = tessellation(options, &patches);
+    let shapes = input.shapes.iter().map(|(_, named)| input.geometry(named));
+    let shapes = shapes.collect::<Result<Vec<_>, _>>()?;
+    if shapes.iter().all(|shape| shape.as_curve().is_some()) {
+        return polylines::run(options, &input, &shapes, format, json);
+    }
+    let faces = faces(&input, &shapes)?;
+    let tessellation = tessellation(options, &shapes);
     let mut progress = Progress::new("meshing");
-    let (mesh, report) = tessellate(&patches, &tessellation, &mut |fraction| progress.tell(fraction))
+    let (mesh, report) = tessellate(&faces, &tessellation, &mut |fraction| progress.tell(fraction))
         .map_err(|error| Failure::Bad(format!("{}: {error}", input.name)))?;
     drop(progress);
 
@@ -68,7 +75,7 @@ pub fn run(options: &Mesh, json: bool) -> Result<(), Failure> {
     let mut lines = Lines::new();
     let report = Report {
         output: options.output.display().to_string(),
-        shapes: patches.len(),
+        shapes: shapes.len(),
         vertices: mesh.positions.len(),
         triangles: mesh.triangles.len(),
         tolerance: match tessellation.density {
@@ -92,6 +99,23 @@ pub fn run(options: &Mesh, json: bool) -> Result<(), Failure> {
     lines.finish()
 }
 
+/// The shapes as the mesher takes them.
+fn faces<'g>(input: &Input, shapes: &'g [Geometry]) -> Result<Vec<Face<'g>>, Failure> {
+    let face = |(geometry, (_, named)): (&'g Geometry, &(usize, NamedShape))| match geometry {
+        Geometry::GbPatch(patch) => Ok(Face::from(patch.as_ref())),
+        Geometry::Patch(patch) => Ok(patch.into()),
+        Geometry::RationalPatch(patch) => Ok(patch.into()),
+        Geometry::PowerPatch(patch) => Ok(patch.into()),
+        Geometry::Triangle(triangle) => Ok(triangle.into()),
+        Geometry::RationalTriangle(triangle) => Ok(triangle.into()),
+        _ => {
+            let kind = named.shape.kind();
+            Err(Failure::Bad(format!("{}: a shape of kind `{kind}` has no surface to mesh", named.place())))
+        }
+    };
+    shapes.iter().zip(&input.shapes).map(face).collect()
+}
+
 fn volume(mesh: &TriangleMesh, closed: bool) -> Result<Option<f64>, Failure> {
     Ok(if closed { Some(mesh.signed_volume()?) } else { None })
 }
@@ -105,11 +129,11 @@ fn named(format: MeshFormatName) -> MeshFormat {
     }
 }
 
-fn tessellation(options: &Mesh, patches: &[ConcavePatch]) -> TessellationOptions {
+fn tessellation(options: &Mesh, shapes: &[Geometry]) -> TessellationOptions {
     let density = match (options.tolerance, options.resolution) {
         (_, Some(resolution)) => Density::Resolution(resolution),
         (Some(tolerance), _) => Density::Tolerance(tolerance),
-        (None, None) => Density::Tolerance(DEFAULT_TOLERANCE * size(patches)),
+        (None, None) => Density::Tolerance(DEFAULT_TOLERANCE * size(shapes)),
     };
     let mut tessellation =
         TessellationOptions { normals: options.normals, ..TessellationOptions::new(density) };
@@ -122,10 +146,25 @@ fn tessellation(options: &Mesh, patches: &[ConcavePatch]) -> TessellationOptions
     tessellation
 }
 
-/// The diagonal of the box of all patches.
-fn size(patches: &[ConcavePatch]) -> f64 {
-    let boxes = patches.iter().map(ConcavePatch::bounding_box);
+/// The diagonal of the box of all shapes; of those that control points do not bound, of their corners and middles.
+fn size(shapes: &[Geometry]) -> f64 {
+    let boxes = shapes.iter().filter_map(|shape| shape.control_box().or_else(|| sampled(shape)));
     boxes.reduce(|a: BoundingBox, b| a.union(&b)).map_or(0.0, |all| all.diagonal())
+}
+
+fn sampled(shape: &Geometry) -> Option<BoundingBox> {
+    const STEPS: usize = 8;
+    let surface = shape.as_surface()?;
+    let at = |i: usize, j: usize| [i, j].map(|k| k as f64 / STEPS as f64);
+    let parameters = (0..=STEPS).flat_map(|i| (0..=STEPS).map(move |j| at(i, j)));
+    let points = parameters.filter_map(|[x, y]| {
+        let [u, v] = match surface.domain() {
+            SurfaceDomain::Rectangle([u, v]) => [u.at(x), v.at(y)],
+            SurfaceDomain::Triangle => [x * (1.0 - y), y],
+        };
+        surface.try_point(u, v).ok()
+    });
+    BoundingBox::from_points(points)
 }
 
 fn text(report: &Report, lines: &mut Lines) -> Result<(), Failure> {

@@ -1,7 +1,9 @@
 use casteljau_geom::GeomError;
 use casteljau_geom::Interval;
 use casteljau_geom::glam::{DVec3, DVec4};
-use casteljau_shape::{BezierCurve, BezierPatch, BezierTriangle, Curve, Patch, ShapeError, Triangle};
+use casteljau_shape::{
+    BezierCurve, BezierPatch, BezierTriangle, Curve, LARGEST_COORDINATE, Patch, ShapeError, Triangle,
+};
 
 use crate::Reason;
 use crate::place::Step;
@@ -56,8 +58,15 @@ impl NetRecord {
             None => vec![Step::Field(field), Step::Index(place)],
         };
         let steps = match (error, self) {
-            // Three is the weight; with points apart, a coordinate may be the product of both.
-            (ShapeError::Coordinate { place, axis: 3, .. }, Self::Weighted { .. }) => at("weights", place),
+            // Three is the weight; a coordinate that is in range itself is out of it by its weight.
+            (ShapeError::Coordinate { place, axis, .. }, Self::Weighted { points, .. })
+                if points
+                    .get(place)
+                    .and_then(|p| p.get(axis))
+                    .is_none_or(|x| x.abs() <= LARGEST_COORDINATE) =>
+            {
+                at("weights", place)
+            }
             (ShapeError::Coordinate { place, axis, .. }, _) => {
                 [at(self.field(), place), vec![Step::Index(axis)]].concat()
             }

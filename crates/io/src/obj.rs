@@ -1,10 +1,11 @@
-//! Wavefront OBJ, written as text: `v`, `vn` and `f`, indices from 1.
+//! Wavefront OBJ, written as text: `v`, `vn`, `f` and `l`, indices from 1.
 //!
 //! Numbers are in the shortest form that reads back to the same f64. Source: the *Object Files* appendix of the
 //! Advanced Visualizer manual, sections "Vertex data" and "Elements".
 
 use std::io::Write;
 
+use casteljau_geom::glam::DVec3;
 use casteljau_mesh::TriangleMesh;
 
 use crate::IoError;
@@ -40,6 +41,31 @@ pub fn write(mesh: &TriangleMesh, out: &mut (impl Write + ?Sized)) -> Result<(),
         } else {
             writeln!(out, "f {a}//{a} {b}//{b} {c}//{c}")?;
         }
+    }
+    Ok(())
+}
+
+/// Writes polylines, one `l` element each.
+///
+/// ```
+/// use casteljau_mesh::glam::DVec3;
+/// let mut text = Vec::new();
+/// casteljau_io::obj::write_polylines(&[vec![DVec3::ZERO, DVec3::X], vec![DVec3::X, DVec3::Y, DVec3::Z]], &mut text)?;
+/// assert!(text.ends_with(b"l 1 2\nl 3 4 5\n"));
+/// # Ok::<(), casteljau_io::IoError>(())
+/// ```
+pub fn write_polylines(lines: &[Vec<DVec3>], out: &mut (impl Write + ?Sized)) -> Result<(), IoError> {
+    for p in lines.iter().flatten() {
+        writeln!(out, "v {:?} {:?} {:?}", p.x, p.y, p.z)?;
+    }
+    let mut next = 1_usize;
+    for line in lines {
+        write!(out, "l")?;
+        for index in next..next + line.len() {
+            write!(out, " {index}")?;
+        }
+        writeln!(out)?;
+        next += line.len();
     }
     Ok(())
 }

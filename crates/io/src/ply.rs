@@ -4,9 +4,11 @@
 
 use std::io::Write;
 
+use casteljau_geom::glam::DVec3;
 use casteljau_mesh::TriangleMesh;
 
-use crate::IoError;
+use crate::error::STREAM;
+use crate::{IoError, Place, Reason};
 
 /// Writes a mesh in the binary little-endian form: 24 bytes a vertex, 48 with normals, 13 a triangle.
 ///
@@ -55,6 +57,45 @@ pub fn write_ascii(mesh: &TriangleMesh, out: &mut (impl Write + ?Sized)) -> Resu
     }
     for [a, b, c] in &mesh.triangles {
         writeln!(out, "3 {a} {b} {c}")?;
+    }
+    Ok(())
+}
+
+/// Writes polylines in the binary little-endian form, as elements `edge` of two vertices: 24 bytes a vertex, 8 an edge.
+///
+/// ```
+/// use casteljau_mesh::glam::DVec3;
+/// let mut bytes = Vec::new();
+/// casteljau_io::ply::write_polylines(&[vec![DVec3::ZERO, DVec3::X, DVec3::Y]], &mut bytes)?;
+/// assert!(bytes.ends_with(&[0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0]));
+/// # Ok::<(), casteljau_io::IoError>(())
+/// ```
+///
+/// # Errors
+/// [`Reason::TooManyVertices`] beyond 2³¹ − 1 vertices; what the stream says.
+pub fn write_polylines(lines: &[Vec<DVec3>], out: &mut (impl Write + ?Sized)) -> Result<(), IoError> {
+    let vertices: usize = lines.iter().map(Vec::len).sum();
+    let edges: usize = lines.iter().map(|line| line.len().saturating_sub(1)).sum();
+    // Indices are `int`, as the format's common readers have them.
+    let limit = i32::MAX as usize;
+    if vertices > limit {
+        let reason = Reason::TooManyVertices { count: vertices, limit };
+        return Err(IoError::invalid(Place::file(STREAM), reason));
+    }
+    writeln!(out, "ply\nformat binary_little_endian 1.0\ncomment casteljau\nelement vertex {vertices}")?;
+    writeln!(out, "property double x\nproperty double y\nproperty double z\nelement edge {edges}")?;
+    writeln!(out, "property int vertex1\nproperty int vertex2\nend_header")?;
+    for number in lines.iter().flatten().flat_map(DVec3::to_array) {
+        out.write_all(&number.to_le_bytes())?;
+    }
+    let mut first = 0_u32;
+    for line in lines {
+        let end = first + line.len() as u32;
+        for index in first..end.saturating_sub(1).max(first) {
+            out.write_all(&index.to_le_bytes())?;
+            out.write_all(&(index + 1).to_le_bytes())?;
+        }
+        first = end;
     }
     Ok(())
 }

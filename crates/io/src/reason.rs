@@ -294,6 +294,14 @@ pub enum Reason {
         /// Its coordinate.
         value: f64,
     },
+    /// More vertices than the format can count.
+    #[error("{count} vertices are more than the {limit} that the format can count")]
+    TooManyVertices {
+        /// How many there are.
+        count: usize,
+        /// The most that there can be.
+        limit: usize,
+    },
     /// More triangles than the format can count.
     #[error("{count} triangles are more than the {limit} that the format can count")]
     TooManyTriangles {

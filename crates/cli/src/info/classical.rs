@@ -80,7 +80,7 @@ pub fn describe(shape: usize, named: &NamedShape, geometry: &Geometry) -> Result
             _ => None,
         },
         bounds: bounds(geometry).map(Bounds::from),
-        measure: measure(geometry)?,
+        measure: measure(geometry).map_err(|error| Failure::Bad(format!("{}: {error}", named.place())))?,
     })
 }
 
@@ -114,7 +114,7 @@ fn bounds(geometry: &Geometry) -> Option<BoundingBox> {
     }
 }
 
-fn measure(geometry: &Geometry) -> Result<Measure, Failure> {
+fn measure(geometry: &Geometry) -> Result<Measure, ShapeError> {
     Ok(match geometry {
         Geometry::Curve(curve) => length(curve.arc_length(ACCURACY))?,
         Geometry::RationalCurve(curve) => length(curve.arc_length(ACCURACY))?,
@@ -126,25 +126,25 @@ fn measure(geometry: &Geometry) -> Result<Measure, Failure> {
     })
 }
 
-fn length(found: Result<f64, ShapeError>) -> Result<Measure, Failure> {
+fn length(found: Result<f64, ShapeError>) -> Result<Measure, ShapeError> {
     let (length, error) = match found {
         Ok(length) => (Some(length), Some(ACCURACY * length)),
         Err(ShapeError::ZeroLength { .. }) => (Some(0.0), Some(0.0)),
         Err(ShapeError::ArcLength { length, reached, .. }) => (Some(length), Some(reached * length)),
         // There is a pole.
         Err(ShapeError::Unbounded | ShapeError::Evaluation { .. }) => (None, None),
-        Err(error) => return Err(error.into()),
+        Err(error) => return Err(error),
     };
     Ok(Measure::Length { length: finite(length), length_error: finite(error) })
 }
 
-fn area(surface: &dyn ParametricSurface) -> Result<Measure, Failure> {
+fn area(surface: &dyn ParametricSurface) -> Result<Measure, ShapeError> {
     let (area, error) = match surface.area(ACCURACY) {
         Ok(area) => (Some(area), Some(ACCURACY * area)),
         Err(ShapeError::Area { area: 0.0, .. }) => (Some(0.0), None),
         Err(ShapeError::Area { area, reached, .. }) => (Some(area), Some(reached * area)),
         Err(ShapeError::Unbounded | ShapeError::Evaluation { .. }) => (None, None),
-        Err(error) => return Err(error.into()),
+        Err(error) => return Err(error),
     };
     Ok(Measure::Area { area: finite(area), area_error: finite(error) })
 }

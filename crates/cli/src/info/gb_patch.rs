@@ -71,11 +71,10 @@ type Estimate = [f64; 2];
 /// Area, and the volume of what is closed, from meshes of two resolutions: inscribed triangles miss O(h²).
 fn measures(patches: &[&ConcavePatch], name: &str) -> Result<(Estimate, Option<Estimate>), Failure> {
     let mut progress = Progress::new("measuring");
-    let patches: Vec<ConcavePatch> = patches.iter().copied().cloned().collect();
     let mut at = |resolution: usize, [from, to]: [f64; 2]| -> Result<(f64, Option<f64>), Failure> {
         let options = TessellationOptions { normals: false, ..TessellationOptions::resolution(resolution) };
         let mut tell = |fraction: f64| progress.tell(from + (to - from) * fraction);
-        let (mesh, report) = tessellate(&patches, &options, &mut tell)
+        let (mesh, report) = tessellate(patches, &options, &mut tell)
             .map_err(|error| Failure::Bad(format!("{name}: {error}")))?;
         let volume = if report.is_closed() { Some(mesh.signed_volume()?) } else { None };
         Ok((mesh.area()?, volume))

@@ -1,0 +1,311 @@
+//! What the program answers about curves, patches and triangles, against closed forms.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod support;
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use serde_json::{Value, json};
+use support::{casteljau, file, model, numbers, path, with_input};
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+#[track_caller]
+fn near(got: &[f64], exact: &[f64], most: f64) {
+    assert_eq!(got.len(), exact.len());
+    assert!(got.iter().zip(exact).all(|(a, b)| (a - b).abs() <= most), "{got:?} instead of {exact:?}");
+}
+
+/// A model of one shape.
+fn single(shape: &Value) -> Vec<u8> {
+    json!({"casteljau": 1, "shapes": [shape]}).to_string().into_bytes()
+}
+
+#[test]
+fn the_patch_of_the_literature() {
+    let patch = model("parabolic_cylinder.json");
+    let line =
+        casteljau(&["eval", &patch, "--json", "--order", "3", "--at", "0.5,0.5"]).good().json().remove(0);
+    near(&numbers(&line["point"]), &[1.5, 1.0, 0.75], 0.0);
+    near(&numbers(&line["normal"]), &[0.0, 0.0, -1.0], 1e-15);
+    near(&[number(&line["gaussian"]), number(&line["mean"])], &[0.0, 1.0 / 3.0], 1e-15);
+    near(&numbers(&line["principal"]), &[0.0, 2.0 / 3.0], 1e-15);
+    assert!(line.get("weight").is_none());
+    let partials = line["partials"].as_object().unwrap();
+    assert_eq!(partials.len(), 10);
+    for (key, exact) in [
+        ("0,0", [1.5, 1.0, 0.75]),
+        ("1,0", [0.0, 2.0, 0.0]),
+        ("0,1", [3.0, 0.0, 0.0]),
+        ("0,2", [0.0, 0.0, -6.0]),
+        ("3,0", [0.0; 3]),
+    ] {
+        near(&numbers(&partials[key]), &exact, 1e-14);
+    }
+    // Outside the square the polynomial goes on: r(u, v) = (3v, 2u, 3v(1 − v)).
+    let outside = casteljau(&["eval", &patch, "--json", "--at", "-1,2"]).good().json().remove(0);
+    near(&numbers(&outside["point"]), &[6.0, -2.0, -6.0], 1e-13);
+}
+
+#[test]
+fn info_measures_lengths_areas_and_boxes() {
+    let info = |name: &str| casteljau(&["info", &model(name), "--json"]).good().json();
+    let circle = &info("circle.json")[0];
+    assert_eq!(
+        (&circle["kind"], &circle["degree"], &circle["rational"]),
+        (&json!("curve"), &json!(5), &json!(true))
+    );
+    assert_eq!(circle["interval"], json!([0.0, TAU]));
+    near(&[number(&circle["length"])], &[TAU], 1e-8);
+    assert!(number(&circle["length_error"]) <= 1e-8);
+    near(&numbers(&circle["bounds"]["min"]), &[-1.0, -1.0, 0.0], 2e-5);
+    near(&numbers(&circle["bounds"]["max"]), &[1.0, 1.0, 0.0], 2e-5);
+    let cylinder = &info("parabolic_cylinder.json")[0];
+    assert_eq!((&cylinder["degree"], &cylinder["rational"]), (&json!([2, 3]), &json!(false)));
+    assert_eq!(cylinder["intervals"], json!([[0.0, 1.0], [0.0, 1.0]]));
+    // Twice the length of the parabola z = y(3 − y)/3 over [0, 3].
+    let parabola = 1.5 * (2_f64.sqrt() + 1_f64.asinh());
+    near(&[number(&cylinder["area"])], &[2.0 * parabola], 1e-7);
+    near(&[numbers(&cylinder["bounds"]["max"])[2]], &[0.75], 1e-5);
+    let octant = &info("octant.json")[0];
+    assert_eq!((&octant["kind"], &octant["degree"]), (&json!("triangle"), &json!(4)));
+    near(&[number(&octant["area"])], &[FRAC_PI_2], 1e-8);
+    let sum = |name: &str| info(name).iter().map(|line| number(&line["area"])).sum::<f64>();
+    near(&[sum("sphere.json"), sum("torus.json")], &[4.0 * PI, 12.0 * PI * PI], 1e-6);
+    let cubic = &info("twisted_cubic.json")[0];
+    assert_eq!((&cubic["kind"], &cubic["control_points"]), (&json!("power_curve"), &json!(4)));
+    near(&numbers(&cubic["bounds"]["max"]), &[2.0, 4.0, 8.0], 1e-4);
+    for name in ["circle.json", "roof.json", "octant.json", "twisted_cubic.json"] {
+        assert!(casteljau(&["info", &model(name)]).good().out.contains("bounds"));
+    }
+}
+
+#[test]
+fn eval_of_curves_has_frames() {
+    let line = casteljau(&["eval", &model("twisted_cubic.json"), "--json", "--at", "0", "--order", "4"])
+        .good()
+        .json()
+        .remove(0);
+    near(&numbers(&line["tangent"]), &[1.0, 0.0, 0.0], 0.0);
+    near(&[number(&line["curvature"]), number(&line["torsion"])], &[2.0, 3.0], 1e-15);
+    assert_eq!(line["params"], json!([0.0]));
+    assert_eq!(
+        line["partials"],
+        json!({"0": [0.0, 0.0, 0.0], "1": [1.0, 0.0, 0.0], "2": [0.0, 2.0, 0.0], "3": [0.0, 0.0, 6.0], "4": [0.0, 0.0, 0.0]})
+    );
+    let circle =
+        casteljau(&["eval", &model("circle.json"), "--json", "--at", "1", "--at", "6.2"]).good().json();
+    for line in circle {
+        near(&[number(&line["curvature"]), number(&line["torsion"])], &[1.0, 0.0], 1e-13);
+        assert!(number(&line["weight"]) > 0.0);
+    }
+    // A straight line has no osculating plane, a point no tangent.
+    let straight = json!({"kind": "curve", "degree": 1, "control_points": [[0, 0, 0], [3, 4, 0]]});
+    let line =
+        with_input(&["eval", "-", "--json", "--at", "0.5"], &single(&straight)).good().json().remove(0);
+    near(&numbers(&line["tangent"]), &[0.6, 0.8, 0.0], 1e-15);
+    assert_eq!((&line["curvature"], &line["torsion"]), (&json!(0.0), &Value::Null));
+    let point = json!({"kind": "curve", "degree": 0, "control_points": [[1, 2, 3]]});
+    let line = with_input(&["eval", "-", "--json", "--at", "7"], &single(&point)).good().json().remove(0);
+    assert_eq!(
+        (&line["point"], &line["tangent"], &line["curvature"]),
+        (&json!([1.0, 2.0, 3.0]), &Value::Null, &Value::Null)
+    );
+    assert!(
+        casteljau(&["eval", &model("circle.json"), "--at", "1", "--order", "1"])
+            .good()
+            .out
+            .contains("torsion")
+    );
+}
+
+#[test]
+fn triangles_take_two_barycentric_coordinates() {
+    let octant = model("octant.json");
+    let lines = casteljau(&["eval", &octant, "--json", "--at", "1,0", "--at", "0.2,0.3"]).good().json();
+    near(&numbers(&lines[0]["point"]), &[1.0, 0.0, 0.0], 1e-15);
+    let (point, normal) = (numbers(&lines[1]["point"]), numbers(&lines[1]["normal"]));
+    near(&point, &normal, 1e-13);
+    near(&[number(&lines[1]["gaussian"]), number(&lines[1]["mean"])], &[1.0, -1.0], 1e-12);
+    // The pole of a sphere's patch: a normal, by its limit, and no curvature.
+    let sphere = model("sphere.json");
+    let line =
+        casteljau(&["eval", &sphere, "--shape", "0", "--json", "--at", "0.3,1"]).good().json().remove(0);
+    near(&numbers(&line["point"]), &[0.0, 0.0, 1.0], 1e-15);
+    near(&numbers(&line["normal"]), &[0.0, 0.0, 1.0], 1e-12);
+    assert!(line["gaussian"].is_null() && line["principal"].is_null());
+}
+
+#[test]
+fn a_pole_has_an_error_and_the_rest_is_answered() {
+    let pole = json!({"kind": "curve", "degree": 1, "homogeneous": [[0, 0, 0, 1], [-1, 0, 0, -1]]});
+    let (_folder, name) = file("pole.json", &single(&pole));
+    let run = casteljau(&["eval", &name, "--json", "--at", "0.25", "--at", "0.5", "--at", "1"]);
+    let run = run.bad(1, &["1 of 3 parameters without an answer"]);
+    let lines = run.json();
+    assert_eq!(lines.len(), 3);
+    assert_eq!(lines[1]["params"], json!([0.5]));
+    assert!(lines[1]["error"].as_str().unwrap().contains("zero within its uncertainty"));
+    assert!(lines[1].get("point").is_none() && lines[0]["point"].is_array() && lines[2]["point"].is_array());
+    assert_eq!(lines[0]["weight"], json!(0.5));
+    let line = casteljau(&["info", &name, "--json"]).good().json().remove(0);
+    assert!(line["bounds"].is_null() && line["length"].is_null());
+}
+
+#[test]
+fn parameters_must_fit_the_shape() {
+    let (circle, octant) = (model("circle.json"), model("octant.json"));
+    casteljau(&["eval", &circle, "--at", "0,0"]).bad(2, &["--at 0,0: expected one number, t, not 2"]);
+    casteljau(&["eval", &octant, "--at", "0.1,0.2,0.7"]).bad(2, &["expected two numbers, λ1,λ2, not 3"]);
+    assert_eq!(casteljau(&["eval", &octant, "--at", "0,0", "--order", "51"]).status, 2);
+    let (_folder, list) = file("list", b"0.5\n\n1,2\n");
+    casteljau(&["eval", &circle, "--params", &list]).bad(1, &[":3: `1,2`: expected one number"]);
+    // A curve and a patch in one file: each parameter is answered by the shape it fits.
+    let two = json!({"casteljau": 1, "shapes": [
+        {"kind": "curve", "degree": 0, "control_points": [[1, 2, 3]]},
+        {"kind": "power_patch", "coefficients": [[[1, 2, 3]]]}]});
+    let run = with_input(&["eval", "-", "--json", "--at", "0", "--at", "0,1"], two.to_string().as_bytes());
+    let lines = run.bad(1, &["2 of 4 parameters"]).json();
+    let errors: Vec<bool> = lines.iter().map(|line| line.get("error").is_some()).collect();
+    assert_eq!(errors, [false, true, true, false]);
+    casteljau(&["domain", &circle]).bad(1, &["circle.json:", "a shape of kind `curve` is no GB patch"]);
+}
+
+#[test]
+fn check_tells_how_shapes_meet() {
+    let pair = casteljau(&["check", &model("curvature_pair.json"), "--json"]).good().json();
+    assert_eq!(pair.len(), 1);
+    let line = &pair[0];
+    assert_eq!(
+        (&line["shapes"], &line["sides"], &line["opposed"]),
+        (&json!([0, 1]), &json!([1, 0]), &json!(true))
+    );
+    assert_eq!(
+        (&line["measured"], &line["parametric"], &line["promised"]),
+        (&json!("G2"), &json!("C1"), &Value::Null)
+    );
+    assert!(
+        number(&line["g0"]) == 0.0
+            && number(&line["g1"]) < 1e-6
+            && number(&line["g2"]) < 1e-12
+            && number(&line["c2"]) > 1e-3
+    );
+    // Once around: the end meets the start.
+    let circle = casteljau(&["check", &model("circle.json"), "--json"]).good().json();
+    assert_eq!(
+        (circle.len(), &circle[0]["sides"], &circle[0]["measured"]),
+        (1, &json!([0, 1]), &json!("G2"))
+    );
+    // 16 patches in rings both ways, each edge shared once.
+    let torus = casteljau(&["check", &model("torus.json"), "--json"]).good().json();
+    assert_eq!(torus.len(), 32);
+    for line in &torus {
+        assert_eq!((&line["measured"], &line["opposed"]), (&json!("G2"), &json!(true)), "{line}");
+    }
+    // Eight octants: twelve quarters of circles, none at the poles.
+    let sphere = casteljau(&["check", &model("sphere.json"), "--json"]).good().json();
+    assert_eq!(sphere.len(), 12);
+    assert!(sphere.iter().all(|line| line["measured"] == "G2"), "{sphere:?}");
+    assert!(casteljau(&["check", &model("roof.json")]).good().out.contains("no two"));
+    assert!(casteljau(&["check", &model("torus.json")]).good().out.contains("G2"));
+    // Two squares with a crease of a right angle between them, edges run the same way.
+    let crease = json!({"casteljau": 1, "shapes": [
+        {"kind": "patch", "degree": [1, 1], "control_points": [[[0, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 0]]]},
+        {"kind": "triangle", "degree": 1, "control_points": [[0, 0, 0], [0, 1, 0], [0, 0, 1]]}]});
+    let lines = with_input(&["check", "-", "--json"], crease.to_string().as_bytes()).good().json();
+    assert_eq!((lines.len(), &lines[0]["measured"]), (1, &json!("G0")));
+    near(&[number(&lines[0]["g1"])], &[90.0], 1e-12);
+}
+
+#[test]
+fn convert_changes_basis_degree_and_format() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| path(&folder.path().join(name));
+    // Normalising is idempotent, for every sample.
+    for name in ["roof.json", "torus.json", "octant.json", "twisted_cubic.json", "l.json"] {
+        casteljau(&["convert", &model(name), &at(name)]).good();
+        assert_eq!(std::fs::read(at(name)).unwrap(), std::fs::read(model(name)).unwrap(), "{name}");
+    }
+    casteljau(&[
+        "convert",
+        &model("twisted_cubic.json"),
+        &at("bezier.json"),
+        "--to",
+        "bezier",
+        "--elevate",
+        "2",
+    ])
+    .good();
+    let curve =
+        &serde_json::from_slice::<Value>(&std::fs::read(at("bezier.json")).unwrap()).unwrap()["shapes"][0];
+    assert_eq!(
+        (&curve["kind"], &curve["degree"], &curve["interval"]),
+        (&json!("curve"), &json!(5), &json!([-1.0, 2.0]))
+    );
+    casteljau(&["convert", &at("bezier.json"), &at("power.json"), "--to", "power"]).good();
+    for name in ["bezier.json", "power.json"] {
+        let line = casteljau(&["eval", &at(name), "--json", "--at", "1.5"]).good().json().remove(0);
+        near(&numbers(&line["point"]), &[1.5, 2.25, 3.375], 1e-13);
+    }
+    casteljau(&["convert", &model("torus.json"), &at("torus.vtu")]).good();
+    let vtu = std::fs::read_to_string(at("torus.vtu")).unwrap();
+    assert!(vtu.contains("NumberOfPoints=\"144\" NumberOfCells=\"16\"") && vtu.contains("version=\"2.2\""));
+    let streamed = casteljau(&["convert", &model("torus.json"), "-", "--format", "vtu"]).good();
+    assert_eq!(streamed.out, vtu);
+    casteljau(&["convert", &model("l.json"), &at("l.cgb")]).good();
+    assert_eq!(casteljau(&["info", &at("l.cgb"), "--json"]).good().json().len(), 1);
+    // What cannot be, and leaves nothing behind.
+    casteljau(&["convert", &model("circle.json"), &at("no.json"), "--to", "power"])
+        .bad(1, &["circle.json:4: shapes[0]: a rational curve has no power basis"]);
+    casteljau(&["convert", &model("l.json"), &at("no.vtu")]).bad(1, &["l.json:", "GB patches"]);
+    casteljau(&["convert", &model("roof.json"), &at("no.cgb")]).bad(1, &["no.cgb: ", "kind `patch`"]);
+    casteljau(&["convert", &model("roof.json"), &at("no.step")]).bad(1, &["known endings: json, cgb, vtu"]);
+    casteljau(&["convert", &model("circle.json"), &at("no.json"), "--elevate", "1000"])
+        .bad(1, &["circle.json:4: shapes[0]: ", "1005"]);
+    assert_eq!(
+        std::fs::read_dir(folder.path())
+            .unwrap()
+            .filter(|entry| { entry.as_ref().unwrap().file_name().to_string_lossy().starts_with("no.") })
+            .count(),
+        0
+    );
+}
+
+#[test]
+fn surfaces_are_meshed() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = path(&folder.path().join("torus.obj"));
+    let line = casteljau(&["mesh", &model("torus.json"), "-o", &out, "--resolution", "16", "--json"])
+        .good()
+        .json()
+        .remove(0);
+    assert_eq!((&line["closed"], &line["shapes"]), (&json!(true), &json!(16)));
+    // 2π² R r², less what inscribed faces miss.
+    near(&[number(&line["volume"])], &[6.0 * PI * PI], 0.015 * 6.0 * PI * PI);
+}
+
+#[test]
+fn curves_become_polylines() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| path(&folder.path().join(name));
+    let circle = model("circle.json");
+    let mesh = |out: &str| casteljau(&["mesh", &circle, "-o", &at(out), "--resolution", "100", "--json"]);
+    let line = mesh("c.obj").good().json().remove(0);
+    assert_eq!((&line["vertices"], &line["edges"]), (&json!(101), &json!(100)));
+    near(&[number(&line["length"])], &[TAU], 0.01);
+    let text = std::fs::read_to_string(at("c.obj")).unwrap();
+    assert_eq!(text.lines().filter(|line| line.starts_with("v ")).count(), 101);
+    assert!(text.lines().last().unwrap().starts_with("l 1 2 3 "));
+    mesh("c.ply").good();
+    let bytes = std::fs::read(at("c.ply")).unwrap();
+    let end = b"end_header\n";
+    let start = bytes.windows(end.len()).position(|window| window == end).unwrap() + end.len();
+    assert_eq!(bytes.len() - start, 101 * 24 + 100 * 8);
+    mesh("c.stl").bad(1, &["c.stl: curves have no triangles"]);
+    casteljau(&["mesh", &circle, "-o", &at("c.obj")]).bad(2, &["--resolution"]);
+    let huge = usize::MAX.to_string();
+    casteljau(&["mesh", &circle, "-o", &at("c.obj"), "--resolution", &huge])
+        .bad(1, &["vertices are more than"]);
+}
