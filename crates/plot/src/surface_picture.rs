@@ -124,7 +124,9 @@ pub fn surface_picture(shapes: &[SurfaceShape], style: &SurfaceStyle) -> Result<
     // The net of a single surface lies before it; among several, nets are hidden like everything else.
     let lift = if shapes.len() == 1 { 4.0 * size } else { longest };
     for (index, shape) in shapes.iter().enumerate().filter(|_| style.net) {
-        let pen = scene.pen(Pen { color: NETS[index % NETS.len()], width: 1.0, lift });
+        // Beside a construction the net is but its ground.
+        let color = if constructions.is_empty() { NETS[index % NETS.len()] } else { FAINT };
+        let pen = scene.pen(Pen { color, width: 1.0, lift });
         for line in shape.net_lines() {
             let line: Vec<DVec3> = line.into_iter().filter_map(in_space).collect();
             scene.line(&line, pen);

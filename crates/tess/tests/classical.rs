@@ -1,5 +1,5 @@
 //! Bézier patches and triangles, polynomial and rational: closed bodies, chord errors, poles, collapsed edges.
-#![allow(missing_docs, clippy::unwrap_used)]
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
 
 mod common;
 
