@@ -1,5 +1,6 @@
 use casteljau_domain::DomainError;
 use casteljau_gb::GbError;
+use casteljau_shape::ShapeError;
 
 /// Why a picture cannot be drawn.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -58,6 +59,18 @@ pub enum PlotError {
     /// The shape could not be evaluated.
     #[error("{0}")]
     Gb(#[from] GbError),
+    /// A curve, patch or triangle could not be evaluated: it has a pole.
+    ///
+    /// ```
+    /// use casteljau_plot::{CurveShape, CurveStyle, PlotError, curve_picture};
+    /// use casteljau_shape::{RationalCurve, geom::glam::DVec3};
+    /// let curve = RationalCurve::new(&[DVec3::ZERO, DVec3::X], &[1.0, -1.0])?; // pole at t = ½
+    /// let refused = curve_picture(&[CurveShape::from(&curve)], &CurveStyle::default());
+    /// assert!(matches!(refused, Err(PlotError::Shape(_))));
+    /// # Ok::<(), casteljau_shape::ShapeError>(())
+    /// ```
+    #[error("{0}")]
+    Shape(#[from] ShapeError),
     /// The domain could not be triangulated or its coordinates evaluated.
     #[error("domain: {0}")]
     Domain(#[from] DomainError),

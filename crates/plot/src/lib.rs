@@ -4,6 +4,8 @@
 //!   the triangulation they were found on.
 //! - [`patch_picture`]: GB patches in an orthographic [`View`]: shaded or coloured by curvature, with isolines, side
 //!   curves and control nets, what lies behind hidden by what lies in front.
+//! - [`curve_picture`]: curves with control polygons, curvature combs, Frenet frames, and de Casteljau's construction.
+//! - [`surface_picture`]: tensor-product patches and triangles in the same look, with de Casteljau's construction.
 //!
 //! Coordinates in the files are pixels with two decimals, always finite; the same input gives the same bytes.
 //!
@@ -22,17 +24,24 @@
 mod canvas;
 mod color;
 mod contour;
+mod curve_picture;
 mod decoration;
 mod domain_picture;
 mod error;
 mod patch_picture;
 mod sampling;
 mod scene;
+mod shade;
+mod shapes;
+mod surface_picture;
 mod view;
 
+pub use curve_picture::{CurveStyle, curve_picture};
 pub use domain_picture::{DomainStyle, domain_picture};
 pub use error::PlotError;
 pub use patch_picture::{Isolines, PatchStyle, Shading, patch_picture};
+pub use shapes::{CurveShape, SurfaceShape};
+pub use surface_picture::{SurfaceStyle, surface_picture};
 pub use view::View;
 
 /// Least and largest width of a picture, in pixels.

@@ -3,12 +3,13 @@ use casteljau_geom::glam::{DVec2, DVec3};
 use casteljau_geom::{BoundingBox, SurfaceJet};
 
 use crate::canvas::{Frame, Margins, extent, finish, text};
-use crate::color::{BACK, FAINT, FRONT, INK, NETS, NEUTRAL, diverging, hex};
+use crate::color::{FAINT, INK, NETS, diverging};
 use crate::contour::contours;
 use crate::decoration::{axes_and_scale, color_bar};
 use crate::domain_picture::check_counts;
 use crate::sampling::Sampling;
 use crate::scene::{Pen, Scene};
+use crate::shade::{Skin, color_scale, shade};
 use crate::{PlotError, View};
 
 /// How the surface itself is drawn.
@@ -113,7 +114,7 @@ pub fn patch_picture(patches: &[ConcavePatch], style: &PatchStyle) -> Result<Str
     let closed = style.shading != Shading::None && is_closed(patches);
     let longest = sampled.iter().map(Sampled::longest_edge).fold(0.0, f64::max);
     let mut scene = Scene::new(style.view, longest.max(size / 200.0));
-    let curvature = curvature_scale(&sampled, style.shading)?;
+    let curvature = curvature_scale(&sampled, style.shading);
     for part in &sampled {
         surface(&mut scene, part, style, curvature, closed);
     }
@@ -176,57 +177,25 @@ fn curvature(part: &Sampled<'_>, shading: Shading, index: usize) -> f64 {
     part.patch.jet_at(part.sampling.locations[index]).ok().and_then(value).unwrap_or(f64::NAN)
 }
 
-/// The curvature that gets the full colour: 95 % of the values are smaller.
-fn curvature_scale(parts: &[Sampled<'_>], shading: Shading) -> Result<Option<f64>, PlotError> {
-    if !matches!(shading, Shading::Gaussian | Shading::Mean) {
-        return Ok(None);
-    }
-    let all =
-        parts.iter().flat_map(|part| (0..part.points.len()).map(move |i| curvature(part, shading, i).abs()));
-    let mut values: Vec<f64> = all.filter(|x| x.is_finite()).collect();
-    values.sort_by(f64::total_cmp);
-    let scale = values.get(values.len() * 19 / 20).copied().unwrap_or(1.0);
-    Ok(Some(if scale > 0.0 { scale } else { 1.0 }))
+fn curvature_scale(parts: &[Sampled<'_>], shading: Shading) -> Option<f64> {
+    matches!(shading, Shading::Gaussian | Shading::Mean).then(|| {
+        color_scale(
+            parts.iter().flat_map(|part| (0..part.points.len()).map(move |i| curvature(part, shading, i))),
+        )
+    })
 }
 
 fn surface(scene: &mut Scene, part: &Sampled<'_>, style: &PatchStyle, scale: Option<f64>, closed: bool) {
     if style.shading == Shading::None {
         return;
     }
-    let light = style.view.light();
-    let halfway = (light + style.view.toward()).normalize_or_zero();
     let values: Vec<f64> = match scale {
         Some(scale) => (0..part.points.len()).map(|i| curvature(part, style.shading, i) / scale).collect(),
         None => Vec::new(),
     };
-    // A clockwise domain's triangles are counter-clockwise all the same; the patch's normal knows the right side.
-    for corners in &part.sampling.triangles {
-        let points = corners.map(|i| part.points[i as usize]);
-        let normal = corners.iter().map(|&i| part.normals[i as usize]).sum::<DVec3>().normalize_or_zero();
-        let facing = normal.dot(style.view.toward());
-        if closed && facing < 0.0 {
-            continue;
-        }
-        let toward = if facing < 0.0 { -normal } else { normal };
-        let brightness = toward.dot(light).max(0.0);
-        let glint = 0.12 * toward.dot(halfway).max(0.0).powi(24);
-        let base = if values.is_empty() {
-            if facing < 0.0 { BACK } else { FRONT }
-        } else {
-            let known = || corners.iter().map(|&i| values[i as usize]).filter(|x| x.is_finite());
-            let count = known().count();
-            if count == 0 {
-                NEUTRAL
-            } else {
-                diverging((known().sum::<f64>() / count as f64).clamp(-1.0, 1.0))
-            }
-        };
-        let color = match values.is_empty() {
-            true => base * (0.42 + 0.72 * brightness) + DVec3::splat(glint),
-            false => base * (0.85 + 0.15 * brightness),
-        };
-        scene.triangle(points, hex(color));
-    }
+    let Sampled { points, normals, sampling, .. } = part;
+    let skin = Skin { points, normals, triangles: &sampling.triangles, values: &values };
+    shade(scene, &skin, &style.view, closed);
 }
 
 /// The side curves. With `hidden`, those pieces are left out where the patch's own normal looks away: the neighbour has them.

@@ -98,7 +98,10 @@ impl Model {
         Ok(model)
     }
 
-    /// Numbers the samples, those that come together getting one number.
+    /// Numbers the samples, and gives those that are one vertex one point and, with `merge`, one number.
+    ///
+    /// The points of shared sides are the same already, but for ends that are the same to rounding only, as there are at
+    /// collapsed edges.
     fn number(&mut self, merge: bool) {
         let mut offsets = Vec::with_capacity(self.outlines.len());
         let mut total = 0;
@@ -106,32 +109,39 @@ impl Model {
             offsets.push(total);
             total += outline.points.len();
         }
-        let mut parent: Vec<usize> = (0..total).collect();
-        if merge {
-            for side in &self.shared {
-                let count = side.samples.points().len();
-                if side.collapsed {
-                    for &(id, _) in &side.uses {
-                        let start = offsets[id.patch] + self.sample_of(id, 0);
-                        let end = offsets[id.patch] + self.sample_of(id, count - 1);
-                        join(&mut parent, start, end);
-                    }
-                }
-                let Some((&(first, first_reversed), others)) = side.uses.split_first() else { continue };
-                for &(other, reversed) in others {
-                    for j in 0..count {
-                        let twin = if reversed == first_reversed { j } else { count - 1 - j };
-                        let a = offsets[first.patch] + self.sample_of(first, j);
-                        let b = offsets[other.patch] + self.sample_of(other, twin);
-                        join(&mut parent, a, b);
-                    }
+        // A collapsed side is one vertex of its patch even where patches keep their own.
+        let mut apart: Vec<usize> = (0..total).collect();
+        for side in self.shared.iter().filter(|side| side.collapsed) {
+            for &(id, _) in &side.uses {
+                let [start, end] = [0, side.samples.points().len() - 1];
+                let [start, end] = [start, end].map(|j| offsets[id.patch] + self.sample_of(id, j));
+                join(&mut apart, start, end);
+            }
+        }
+        let mut together = apart.clone();
+        for side in &self.shared {
+            let count = side.samples.points().len();
+            let Some((&(first, first_reversed), others)) = side.uses.split_first() else { continue };
+            for &(other, reversed) in others {
+                for j in 0..count {
+                    let twin = if reversed == first_reversed { j } else { count - 1 - j };
+                    let a = offsets[first.patch] + self.sample_of(first, j);
+                    let b = offsets[other.patch] + self.sample_of(other, twin);
+                    join(&mut together, a, b);
                 }
             }
         }
+        let points: Vec<DVec3> = self.outlines.iter().flat_map(|o| o.points.iter().copied()).collect();
+        for (outline, &offset) in self.outlines.iter_mut().zip(&offsets) {
+            for (sample, point) in outline.points.iter_mut().enumerate() {
+                *point = points[root(&mut together, offset + sample)];
+            }
+        }
+        let parent = if merge { &mut together } else { &mut apart };
         let mut numbers = vec![u32::MAX; total];
         let mut count = 0u32;
         for sample in 0..total {
-            let root = root(&mut parent, sample);
+            let root = root(parent, sample);
             if numbers[root] == u32::MAX {
                 numbers[root] = count;
                 count += 1;

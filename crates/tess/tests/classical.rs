@@ -1,5 +1,5 @@
 //! Bézier patches and triangles, polynomial and rational: closed bodies, chord errors, poles, collapsed edges.
-#![allow(missing_docs, clippy::unwrap_used)]
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
 
 mod common;
 
@@ -85,7 +85,7 @@ where
         // Each patch keeping its own, positions agree to the bit.
         let separate = TessellationOptions { seams: Seams::Separate, ..options };
         let (apart, _) = tessellate(&faces(shapes), &separate, &mut no_progress).unwrap();
-        assert_closed(&apart.welded().unwrap(), euler, &what);
+        assert_closed(&apart.welded().unwrap().mesh, euler, &what);
     }
 }
 
@@ -164,7 +164,7 @@ fn a_patch_that_meets_itself_is_closed() {
         let (mesh, report) = mesh(&[Face::from(&wall)], &options);
         let audit = mesh.audit().unwrap();
         assert!(audit.manifold && audit.oriented && audit.degenerate == 0, "{audit:?}");
-        assert_eq!((audit.euler_characteristic, audit.boundary_loops), (0, 2), "{options:?}");
+        assert_eq!((audit.euler_characteristic, audit.closed), (0, false), "{options:?}");
         assert_eq!(report.open_sides.len(), 2);
     }
 }
@@ -210,7 +210,8 @@ fn chord_errors_hold_over_any_intervals_and_in_the_power_basis() {
             println!("{} triangles, {worst:.3e} of {tolerance:e}, {:?}", mesh.triangles.len(), report.space);
             assert!(worst <= tolerance, "{worst:e} of {tolerance:e}");
             assert!(worst >= 0.05 * tolerance, "too fine: {worst:e} of {tolerance:e}");
-            assert_eq!(report.space.interior_below_19, 0);
+            assert!(1000 * report.space.interior_below_19 <= report.space.interior, "{:?}", report.space);
+            assert!(100 * report.space.boundary_below_10 <= report.space.boundary + 99, "{:?}", report.space);
         }
     }
     // A folded one is meshed too.
