@@ -4,8 +4,9 @@ use pulp::bytemuck::{cast_slice, cast_slice_mut};
 
 use super::blocks::{each, load};
 use super::coefficients::scaled_differences;
-use super::horner::{ONE_SIDED, Parameter};
+use super::horner::{Parameter, reversed_interval};
 use super::parallel::{CHUNK, each_chunk};
+use super::quotient::is_tame;
 use super::simd::{Job, Lanes, dispatch};
 use super::{BatchPoint, check_length, rational};
 use crate::glam::{DVec3, DVec4};
@@ -34,6 +35,8 @@ pub(super) struct Coefficients {
     pub(super) degree: usize,
     /// The fourth components, the weights of a rational curve; none in other dimensions.
     pub(super) weights: Vec<f64>,
+    /// Whether nothing can go wrong with a quotient inside `[0, 1]`, see [`is_tame`].
+    pub(super) tame: bool,
     pub(super) of_order: [Vec<f64>; 3],
 }
 
@@ -46,7 +49,8 @@ impl Coefficients {
         let of_order = [0, 1, 2].map(|k| scaled_differences(cast_slice(points), P::DIMENSION, k));
         let fourth = cast_slice::<P, f64>(points).iter().skip(3).step_by(P::DIMENSION);
         let weights = if P::DIMENSION == 4 { fourth.copied().collect() } else { Vec::new() };
-        Ok(Self { degree, weights, of_order })
+        let tame = P::DIMENSION == 4 && is_tame(cast_slice(points));
+        Ok(Self { degree, weights, tame, of_order })
     }
 }
 
@@ -131,22 +135,20 @@ fn chunks<const K: usize>(
     out: [&mut [f64]; K],
 ) {
     let out = out.map(|out| out.chunks_mut(CHUNK * dimension));
+    let interval = reversed_interval(coefficients.degree);
     each_chunk(parameters.chunks(CHUNK), out, |parameters, out| {
-        if coefficients.degree <= ONE_SIDED {
-            dispatch(dimension, Values::<_, false> { coefficients, parameters, out });
-        } else {
-            dispatch(dimension, Values::<_, true> { coefficients, parameters, out });
-        }
+        dispatch(dimension, Values { coefficients, interval, parameters, out });
     });
 }
 
-struct Values<'a, const K: usize, const TWO_SIDED: bool> {
+struct Values<'a, const K: usize> {
     coefficients: &'a Coefficients,
+    interval: [f64; 2],
     parameters: &'a [f64],
     out: [&'a mut [f64]; K],
 }
 
-impl<const K: usize, const TWO_SIDED: bool> Job for Values<'_, K, TWO_SIDED> {
+impl<const K: usize> Job for Values<'_, K> {
     type Output = ();
 
     #[inline(always)]
@@ -159,13 +161,23 @@ impl<const K: usize, const TWO_SIDED: bool> Job for Values<'_, K, TWO_SIDED> {
             self.out,
             #[inline(always)]
             |place| {
-                let t = Parameter::<S, TWO_SIDED>::new(simd, load(simd, self.parameters, place));
-                let mut points = [[simd.splat_f64s(0.0); D]; K];
-                for k in 0..K {
-                    points[k] = t.value(q[k]);
-                }
-                points
+                let t = Parameter::new(simd, load(simd, self.parameters, place), self.interval);
+                if t.some { jet::<S, D, K, true>(simd, &t, q) } else { jet::<S, D, K, false>(simd, &t, q) }
             },
         );
     }
+}
+
+/// The first `K` derivatives.
+#[inline(always)]
+fn jet<S: Lanes, const D: usize, const K: usize, const MIXED: bool>(
+    simd: S,
+    t: &Parameter<S>,
+    coefficients: [&[[f64; D]]; 3],
+) -> [[S::f64s; D]; K] {
+    let mut points = [[simd.splat_f64s(0.0); D]; K];
+    for k in 0..K {
+        points[k] = t.value::<D, MIXED>(coefficients[k]);
+    }
+    points
 }

@@ -1,20 +1,15 @@
 //! Tensor-product patches on grids of parameters.
 
-// As in `simd.rs`: plain loops over registers.
-#![allow(clippy::needless_range_loop)]
-
-use std::ops::Range;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::AtomicUsize;
 
 use pulp::bytemuck::{cast_slice, cast_slice_mut};
 
-use super::blocks::store;
-use super::grid_table::{MAX_ORDER, Table};
-use super::nets::{Nets, ORDERS};
-use super::normal::unit_normal;
+use super::grid_kernel::{Chunk, NORMALS, PLAIN, RATIONAL};
+use super::grid_table::{Columns, MAX_ORDER, Rows};
+use super::nets::{ANY, ORDERS};
 use super::parallel::{CHUNK, each_chunk};
-use super::quotient::{lane, largest_weight, refuse_pole, scale, settle, surface, uncertainty};
-use super::simd::{Job, Lanes, WIDTH, dispatch, dispatch_in};
+use super::quotient::refuse_pole;
+use super::simd::{dispatch, dispatch_in};
 use super::{BatchPoint, check_length};
 use crate::glam::{DVec3, DVec4};
 use crate::{BernsteinError, MAX_DEGREE};
@@ -37,15 +32,15 @@ use crate::{BernsteinError, MAX_DEGREE};
 /// ```
 #[derive(Debug, Clone)]
 pub struct GridBatch {
-    u: Table,
-    v: Table,
+    pub(super) u: Rows,
+    pub(super) v: Columns,
 }
 
 impl GridBatch {
     /// Prepares a grid for nets of the degrees m (with u) and n (with v) and for derivatives up to `order`,
     /// at most 2.
     ///
-    /// Any parameters, in any order. Cost: the basis at each uᵢ and vⱼ, and as much memory.
+    /// Any parameters, in any order. Cost: the basis at each uᵢ, two divisions for each vⱼ.
     ///
     /// # Errors
     /// [`BernsteinError::Degree`] above [`MAX_DEGREE`], [`BernsteinError::Order`] above 2.
@@ -56,7 +51,7 @@ impl GridBatch {
         if order > MAX_ORDER {
             return Err(BernsteinError::Order { order, limit: MAX_ORDER });
         }
-        Ok(Self { u: Table::new(degrees[0], u, order), v: Table::new(degrees[1], v, order) })
+        Ok(Self { u: Rows::new(degrees[0], u, order), v: Columns::new(degrees[1], v) })
     }
 
     /// Degrees of the nets.
@@ -130,7 +125,7 @@ impl GridBatch {
         self.check(nets.len(), [points.len(), normals.len(), normals.len()])?;
         let out = [cast_slice_mut(points), cast_slice_mut(normals)];
         self.run(3, 3, cast_slice(nets), out, |rows| {
-            if self.v.degree == 3 {
+            if self.degrees() == [3, 3] {
                 dispatch_in::<_, 3>(rows.by::<NORMALS, 3>());
             } else {
                 dispatch_in::<_, 3>(rows.by::<NORMALS, ANY>());
@@ -157,7 +152,7 @@ impl GridBatch {
         nets: &[f64],
         out: [&mut [f64]; K],
     ) -> Result<(), BernsteinError> {
-        let unrolled = dimension == 3 && self.v.degree == 3;
+        let unrolled = dimension == 3 && self.degrees() == [3, 3];
         self.run(dimension, dimension, nets, out, |rows| {
             if unrolled {
                 dispatch_in::<_, 3>(rows.by::<PLAIN, 3>());
@@ -171,13 +166,19 @@ impl GridBatch {
         match out {
             [a] => self.rational_in(nets, [a]),
             [a, b, c] => self.rational_in(nets, [a, b, c]),
-            [a, b, c, d, e, f] => self.rational_in(nets, [a, b, c, d, e, f]),
+            [a, b, c, d, e, f] => self.run(4, 3, nets, [a, b, c, d, e, f], |rows| {
+                dispatch_in::<_, 4>(rows.by::<RATIONAL, ANY>());
+            }),
             _ => Ok(()),
         }
     }
 
     fn rational_in<const K: usize>(&self, nets: &[f64], out: [&mut [f64]; K]) -> Result<(), BernsteinError> {
-        self.run(4, 3, nets, out, |rows| dispatch_in::<_, 4>(rows.by::<RATIONAL, ANY>()))
+        self.run(4, 3, nets, out, |rows| match self.degrees() {
+            [3, 3] => dispatch_in::<_, 4>(rows.by::<RATIONAL, 3>()),
+            [5, 5] => dispatch_in::<_, 4>(rows.by::<RATIONAL, 5>()),
+            _ => dispatch_in::<_, 4>(rows.by::<RATIONAL, ANY>()),
+        })
     }
 
     /// Checks the number of control points, and the buffers of an evaluation of `K` kinds of derivatives.
@@ -220,127 +221,4 @@ impl GridBatch {
         });
         refuse_pole(pole.into_inner())
     }
-}
-
-/// What is made of the homogeneous or plain derivatives.
-const PLAIN: u8 = 0;
-const RATIONAL: u8 = 1;
-const NORMALS: u8 = 2;
-
-/// Degree in v of a kernel that takes every degree; those with a number have their loops unrolled.
-const ANY: usize = usize::MAX;
-
-/// Some of the rows of all nets.
-struct Chunk<'a, const K: usize> {
-    grid: &'a GridBatch,
-    nets: &'a [f64],
-    rows: Range<usize>,
-    out: [&'a mut [f64]; K],
-    /// The first place of a pole.
-    pole: &'a AtomicUsize,
-}
-
-impl<'a, const K: usize> Chunk<'a, K> {
-    /// The job to be done with these rows.
-    fn by<const KIND: u8, const N: usize>(self) -> Rows<'a, K, KIND, N> {
-        Rows(self)
-    }
-}
-
-struct Rows<'a, const K: usize, const KIND: u8, const N: usize>(Chunk<'a, K>);
-
-impl<const K: usize, const KIND: u8, const N: usize> Job for Rows<'_, K, KIND, N> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<S: Lanes, const D: usize>(self, simd: S) {
-        let Chunk { grid: GridBatch { u, v }, nets, rows, mut out, pole } = self.0;
-        let size = (u.degree + 1) * (v.degree + 1) * D;
-        let mut scratch = Nets::new([u.degree, v.degree], D, if KIND == NORMALS { 3 } else { K });
-        let mut of_net = usize::MAX;
-        let mut net: &[f64] = &[];
-        let share = uncertainty(u.degree + v.degree);
-        let mut largest = 0.0;
-        for (number, row) in rows.clone().enumerate() {
-            if of_net != row / u.count {
-                of_net = row / u.count;
-                net = &nets[of_net * size..(of_net + 1) * size];
-                scratch.set(net);
-                if KIND == NORMALS {
-                    scratch.normalize_first();
-                }
-                if KIND == RATIONAL {
-                    largest = largest_weight(net);
-                }
-            }
-            scratch.contract(simd, u, row % u.count);
-            let mut column = 0;
-            while column < v.count {
-                let place = number * v.count + column;
-                match KIND {
-                    NORMALS => {
-                        let point: [S::f64s; 3] = combine::<S, N, _>(simd, &scratch, v, 0, column);
-                        let du = combine::<S, N, _>(simd, &scratch, v, 1, column);
-                        let dv = combine::<S, N, _>(simd, &scratch, v, 2, column);
-                        store(simd, out[0], place, point);
-                        store(simd, out[1], place, unit_normal(simd, du, dv));
-                    }
-                    RATIONAL => {
-                        let mut jet = [[simd.splat_f64s(0.0); 4]; K];
-                        for k in 0..K {
-                            jet[k] = combine::<S, N, _>(simd, &scratch, v, k, column);
-                        }
-                        let bound = simd.splat_f64s(share * largest * u.spread()[row % u.count]);
-                        let least = simd.mul_f64s(bound, simd.load(v.spread(), column));
-                        let (points, suspicious) = surface(simd, jet, least);
-                        for k in 0..K {
-                            store(simd, out[k], place, points[k]);
-                        }
-                        if simd.any(suspicious) {
-                            for at in 0..S::F64_LANES.min(v.count - column) {
-                                let scale = scale(net, u.row(0, row % u.count), v.row(0, column + at));
-                                let denominator = lane::<S>(jet[0][3], at);
-                                if settle(denominator, share * scale, &mut out, place + at) {
-                                    pole.fetch_min(row * v.count + column + at, Ordering::Relaxed);
-                                }
-                            }
-                        }
-                    }
-                    _ => {
-                        for k in 0..K {
-                            let points: [S::f64s; D] = combine::<S, N, _>(simd, &scratch, v, k, column);
-                            store(simd, out[k], place, points);
-                        }
-                    }
-                }
-                column += S::F64_LANES;
-            }
-        }
-    }
-}
-
-/// `Σⱼ Bⱼⁿ⁻ᵇ(v) Rⱼ` for the columns from `first` on, R being the row's curve of the order at `place`.
-///
-/// Lanes beyond the last column repeat it. They are stored where there is room, and overwritten by the next
-/// row.
-#[inline(always)]
-fn combine<S: Lanes, const N: usize, const D: usize>(
-    simd: S,
-    nets: &Nets,
-    table: &Table,
-    place: usize,
-    first: usize,
-) -> [S::f64s; D] {
-    let order = ORDERS[place][1];
-    let width = if N == ANY { table.width(order) } else { N + 1 - order };
-    let (basis, curve) = (&table.block(order, first)[..width], &nets.curve::<D>(place)[..width]);
-    let lane = first % WIDTH;
-    let mut sum = [simd.splat_f64s(0.0); D];
-    for j in 0..width {
-        let basis = simd.load(&basis[j], lane);
-        for c in 0..D {
-            sum[c] = simd.mul_add_f64s(basis, simd.splat_f64s(curve[j][c]), sum[c]);
-        }
-    }
-    sum
 }

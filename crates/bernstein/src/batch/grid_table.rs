@@ -1,85 +1,127 @@
-//! The basis at the parameters of one side of a grid.
+//! What is made once of the parameters of a grid, for all its rows and nets.
 
-use super::simd::WIDTH;
-use crate::basis;
+use super::horner::{Parameter, reversed_interval};
+use super::simd::{Lanes, WIDTH};
+use crate::{MAX_DEGREE, basis};
 
 /// Highest order of derivatives that batches have.
 pub(super) const MAX_ORDER: usize = 2;
 
-/// The Bernstein polynomials of degrees n, n − 1, n − 2 at fixed parameters.
+/// The rows u = constant: the Bernstein polynomials of degrees m, m − 1, m − 2.
 #[derive(Debug, Clone)]
-pub(super) struct Table {
+pub(super) struct Rows {
     pub(super) degree: usize,
     /// Number of parameters.
     pub(super) count: usize,
-    /// `Bᵢⁿ⁻ᵏ(t)` of order k: i fastest, then the parameter.
-    rows: Vec<Vec<f64>>,
-    /// The same for registers: the parameter's place in its block of [`WIDTH`] fastest, then i, then the
-    /// block. Places beyond the last parameter repeat it.
-    blocks: Vec<Vec<f64>>,
-    /// `Σᵢ |Bᵢⁿ(t)|`, padded likewise: 1 inside `[0, 1]`.
-    spread: Vec<f64>,
+    /// Whether all of them lie in `[0, 1]`.
+    pub(super) inside: bool,
+    /// `Bᵢᵐ⁻ᵏ(u)` of order k: i fastest, then the parameter.
+    basis: Vec<Vec<f64>>,
 }
 
-impl Table {
+impl Rows {
     /// The basis for derivatives up to `order`.
     pub(super) fn new(degree: usize, parameters: &[f64], order: usize) -> Self {
-        let count = parameters.len();
-        let padded = count.next_multiple_of(WIDTH);
-        let (mut rows, mut blocks) = (Vec::new(), Vec::new());
-        for k in 0..=order {
+        let of_order = |k: usize| {
             let width = (degree + 1).saturating_sub(k);
-            let mut row = vec![0.0; count * width];
-            let mut block = vec![0.0; padded * width];
+            let mut all = vec![0.0; parameters.len() * width];
             if width > 0 {
-                for (&t, row) in parameters.iter().zip(row.chunks_exact_mut(width)) {
-                    basis(t, row);
-                }
-                for at in 0..padded {
-                    let last = at.min(count - 1) * width;
-                    for (i, &b) in row[last..last + width].iter().enumerate() {
-                        block[(at / WIDTH * width + i) * WIDTH + at % WIDTH] = b;
-                    }
-                }
+                all.chunks_exact_mut(width).zip(parameters).for_each(|(row, &u)| basis(u, row));
             }
-            rows.push(row);
-            blocks.push(block);
-        }
-        let mut spread: Vec<f64> =
-            rows[0].chunks_exact(degree + 1).map(|row| row.iter().map(|b| b.abs()).sum()).collect();
-        spread.resize(padded, spread.last().copied().unwrap_or(1.0));
-        Self { degree, count, rows, blocks, spread }
+            all
+        };
+        let basis = (0..=order).map(of_order).collect();
+        Self { degree, count: parameters.len(), inside: are_inside(parameters), basis }
     }
 
     /// Highest order of derivatives.
     pub(super) fn order(&self) -> usize {
-        self.rows.len() - 1
+        self.basis.len() - 1
     }
 
-    /// The number of basis functions of order k, n + 1 − k.
+    /// `Bᵢᵐ⁻ᵏ` at one parameter.
     #[inline(always)]
-    pub(super) fn width(&self, order: usize) -> usize {
-        (self.degree + 1).saturating_sub(order)
+    pub(super) fn basis(&self, order: usize, at: usize) -> &[f64] {
+        let width = (self.degree + 1).saturating_sub(order);
+        &self.basis[order][at * width..(at + 1) * width]
     }
 
-    /// `Bᵢⁿ⁻ᵏ` at one parameter.
-    #[inline(always)]
-    pub(super) fn row(&self, order: usize, at: usize) -> &[f64] {
-        let width = self.width(order);
-        &self.rows[order][at * width..(at + 1) * width]
+    /// `Σᵢ |Bᵢᵐ(u)|`: 1 inside `[0, 1]`.
+    pub(super) fn spread(&self, at: usize) -> f64 {
+        self.basis(0, at).iter().map(|b| b.abs()).sum()
+    }
+}
+
+/// The columns v = constant: the quotients of Horner's scheme, see `horner.rs`.
+///
+/// The vectors are padded to whole registers with the last parameter's numbers.
+#[derive(Debug, Clone)]
+pub(super) struct Columns {
+    pub(super) degree: usize,
+    /// Number of parameters.
+    pub(super) count: usize,
+    /// Whether all of them lie in `[0, 1]`.
+    pub(super) inside: bool,
+    parameters: Vec<f64>,
+    quotients: Vec<f64>,
+    bases: Vec<f64>,
+    /// 1/base
+    inverses: Vec<f64>,
+    /// 1 where the second form is taken, 0 where not.
+    reversed: Vec<f64>,
+    /// Whether it is, anywhere in each block of [`WIDTH`] columns.
+    some: Vec<bool>,
+}
+
+impl Columns {
+    pub(super) fn new(degree: usize, parameters: &[f64]) -> Self {
+        let (count, inside) = (parameters.len(), are_inside(parameters));
+        let mut parameters = parameters.to_vec();
+        parameters.resize(count.next_multiple_of(WIDTH), parameters.last().copied().unwrap_or_default());
+        let [low, high] = reversed_interval(degree);
+        let is_reversed = |v: f64| low < v && v < high;
+        let base = |v: f64| if is_reversed(v) { v } else { 1.0 - v };
+        let of = |number: &dyn Fn(f64) -> f64| parameters.iter().map(|&v| number(v)).collect::<Vec<_>>();
+        Self {
+            degree,
+            count,
+            inside,
+            quotients: of(&|v| if is_reversed(v) { (1.0 - v) / base(v) } else { v / base(v) }),
+            bases: of(&base),
+            inverses: of(&|v| 1.0 / base(v)),
+            reversed: of(&|v| f64::from(is_reversed(v))),
+            some: parameters.chunks(WIDTH).map(|block| block.iter().any(|&v| is_reversed(v))).collect(),
+            parameters,
+        }
     }
 
-    /// `Bᵢⁿ⁻ᵏ` at the block of parameters that begins with number `first`.
+    /// The columns from `first` on.
     #[inline(always)]
-    pub(super) fn block(&self, order: usize, first: usize) -> &[[f64; WIDTH]] {
-        let width = self.width(order);
-        let block = first / WIDTH * width;
-        &self.blocks[order].as_chunks().0[block..block + width]
+    pub(super) fn parameter<S: Lanes>(&self, simd: S, first: usize) -> Parameter<S> {
+        let zero = simd.splat_f64s(0.0);
+        Parameter {
+            simd,
+            quotient: simd.load(&self.quotients, first),
+            base: simd.load(&self.bases, first),
+            reversed: simd.greater_than_f64s(simd.load(&self.reversed, first), zero),
+            some: self.some[first / WIDTH],
+        }
     }
 
-    /// `Σᵢ |Bᵢⁿ(t)|` of all parameters, padded.
+    /// 1/base of the columns from `first` on.
     #[inline(always)]
-    pub(super) fn spread(&self) -> &[f64] {
-        &self.spread
+    pub(super) fn inverse<S: Lanes>(&self, simd: S, first: usize) -> S::f64s {
+        simd.load(&self.inverses, first)
     }
+
+    /// `Bⱼⁿ` at one parameter, in part of `row`.
+    pub(super) fn basis<'a>(&self, at: usize, row: &'a mut [f64; MAX_DEGREE + 1]) -> &'a [f64] {
+        let row = &mut row[..=self.degree];
+        basis(self.parameters[at], row);
+        row
+    }
+}
+
+fn are_inside(parameters: &[f64]) -> bool {
+    parameters.iter().all(|t| (0.0..=1.0).contains(t))
 }

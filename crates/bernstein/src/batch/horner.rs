@@ -6,75 +6,80 @@
 //! the rounding of s n − i times, that of x i times, i + 1 roundings of Horner's scheme, those of qᵢ, and n
 //! of the power, 3n + 4 together.
 //!
-//! Up to degree [`ONE_SIDED`] the first form serves every t but t = 1; xⁿ, at most 2⁵³ⁿ, leaves room for
-//! coordinates up to 10¹⁵⁰. Above, each lane takes the form whose quotient is at most 1, that is the first
-//! one for t ≤ ½.
+//! The first form is taken unless t is so near 1 that (1 + |x|)ⁿ leaves the range of numbers; the bound 2⁴⁷⁷
+//! leaves room for coordinates up to 10¹⁵⁰. Up to degree 9 only t = 1 and its neighbour are so near, at
+//! degree 25 what is within 2⁻¹⁸ of 1; for degrees of 239 and more the second form is taken for all t > ½.
 
 // As in `simd.rs`: plain loops over registers.
 #![allow(clippy::needless_range_loop)]
 
 use super::simd::Lanes;
 
-/// Up to this degree the form in x = t/(1−t) is in range for all t.
+/// Degrees up to this one, or total degrees of patches, have the first form for all parameters that are not
+/// 1.
 pub(super) const ONE_SIDED: usize = 9;
 
-/// A register of parameters, made ready for polynomials of any degree (`TWO_SIDED`) or of degrees up to
-/// [`ONE_SIDED`].
-#[derive(Clone, Copy)]
-pub(super) struct Parameter<S: Lanes, const TWO_SIDED: bool> {
-    simd: S,
-    /// x, or y in the reversed lanes of the two-sided form.
-    quotient: S::f64s,
-    /// What the sum is to be multiplied by n times: s, or t in the reversed lanes of the two-sided form.
-    base: S::f64s,
-    /// The lanes that take the second form (two-sided), or those where t = 1 and x does not exist
-    /// (one-sided).
-    reversed: S::m64s,
-    /// Whether `reversed` is true in any lane.
-    some: bool,
-    /// Whether it is true in some and false in others.
-    mixed: bool,
-}
-
-impl<S: Lanes, const TWO_SIDED: bool> Parameter<S, TWO_SIDED> {
-    #[inline(always)]
-    pub(super) fn new(simd: S, t: S::f64s) -> Self {
-        let s = simd.sub_f64s(simd.splat_f64s(1.0), t);
-        if TWO_SIDED {
-            let half = simd.splat_f64s(0.5);
-            let reversed = simd.greater_than_f64s(t, half);
-            let base = simd.select_f64s(reversed, t, s);
-            let quotient = simd.div_f64s(simd.select_f64s(reversed, s, t), base);
-            let some = simd.any(reversed);
-            let mixed = some && simd.any(simd.less_than_or_equal_f64s(t, half));
-            Self { simd, quotient, base, reversed, some, mixed }
-        } else {
-            let reversed = simd.equal_f64s(s, simd.splat_f64s(0.0));
-            let quotient = simd.div_f64s(t, s);
-            Self { simd, quotient, base: s, reversed, some: simd.any(reversed), mixed: false }
+/// The open interval of the parameters that take the second form, at degree n.
+pub(super) fn reversed_interval(degree: usize) -> [f64; 2] {
+    // With |s| ≥ 2⁻ˡ, 1 + |x| is at most 2 + 2ˡ ≤ 2ˡ⁺¹, and Σ C(n,i)|xⁱ| = (1 + |x|)ⁿ.
+    match (477 / degree.max(1)).saturating_sub(1).min(52) {
+        0 => [0.5, f64::INFINITY],
+        l => {
+            [1.0 - f64::EPSILON * (1_u64 << (52 - l)) as f64, 1.0 + f64::EPSILON * (1_u64 << (52 - l)) as f64]
         }
     }
+}
 
-    /// The polynomial with the coefficients `C(n,i) Pᵢ`; zero where there are none.
+/// A register of parameters, made ready for polynomials of some degree.
+#[derive(Clone, Copy)]
+pub(super) struct Parameter<S: Lanes> {
+    pub(super) simd: S,
+    /// x, or y in the reversed lanes.
+    pub(super) quotient: S::f64s,
+    /// What the sum is to be multiplied by n times: s, or t in the reversed lanes.
+    pub(super) base: S::f64s,
+    /// The lanes that take the second form.
+    pub(super) reversed: S::m64s,
+    /// Whether there may be such lanes.
+    pub(super) some: bool,
+}
+
+impl<S: Lanes> Parameter<S> {
+    /// Of the parameters t, given the [`reversed_interval`] of the largest degree.
     #[inline(always)]
-    pub(super) fn value<const D: usize>(&self, coefficients: &[[f64; D]]) -> [S::f64s; D] {
+    pub(super) fn new(simd: S, t: S::f64s, [low, high]: [f64; 2]) -> Self {
+        let s = simd.sub_f64s(simd.splat_f64s(1.0), t);
+        let above = simd.greater_than_f64s(t, simd.splat_f64s(low));
+        let reversed = simd.and_m64s(above, simd.less_than_f64s(t, simd.splat_f64s(high)));
+        let some = simd.any(reversed);
+        let (mut numerator, mut base) = (t, s);
+        if some {
+            numerator = simd.select_f64s(reversed, s, t);
+            base = simd.select_f64s(reversed, t, s);
+        }
+        Self { simd, quotient: simd.div_f64s(numerator, base), base, reversed, some }
+    }
+
+    /// The polynomial with the coefficients `C(n,i) Pᵢ`; zero where there are none. `MIXED` is the field
+    /// `some`, so that kernels ask once for all their polynomials.
+    #[inline(always)]
+    pub(super) fn value<const D: usize, const MIXED: bool>(&self, coefficients: &[[f64; D]]) -> [S::f64s; D] {
         let simd = self.simd;
-        let Some(degree) = coefficients.len().checked_sub(1) else { return [simd.splat_f64s(0.0); D] };
-        let power = simd.power(self.base, degree);
-        let mut value = if TWO_SIDED && self.mixed {
-            self.mixed_sum(coefficients)
-        } else if TWO_SIDED && self.some {
-            horner(simd, coefficients.iter(), self.quotient)
-        } else {
-            horner(simd, coefficients.iter().rev(), self.quotient)
-        };
+        let mut value = self.sum::<D, MIXED>(coefficients);
+        let power = simd.power(self.base, coefficients.len().saturating_sub(1));
         for c in 0..D {
             value[c] = simd.mul_f64s(value[c], power);
         }
-        if TWO_SIDED || !self.some {
-            return value;
+        value
+    }
+
+    /// The polynomial without the power of s or t.
+    #[inline(always)]
+    pub(super) fn sum<const D: usize, const MIXED: bool>(&self, coefficients: &[[f64; D]]) -> [S::f64s; D] {
+        if MIXED {
+            return self.mixed_sum(coefficients);
         }
-        select(simd, self.reversed, splat(simd, &coefficients[degree]), value)
+        horner(self.simd, coefficients, self.quotient)
     }
 
     /// Horner's scheme with the coefficients in the order that each lane wants.
@@ -94,16 +99,16 @@ impl<S: Lanes, const TWO_SIDED: bool> Parameter<S, TWO_SIDED> {
     }
 }
 
-/// `(… (q₀ x + q₁) x + …) x + qₙ`; zero where there are no coefficients.
+/// `(… (qₙ x + qₙ₋₁) x + …) x + q₀`; zero where there are no coefficients.
 #[inline(always)]
-fn horner<'a, S: Lanes, const D: usize>(
+pub(super) fn horner<S: Lanes, const D: usize>(
     simd: S,
-    mut coefficients: impl Iterator<Item = &'a [f64; D]>,
+    coefficients: &[[f64; D]],
     x: S::f64s,
 ) -> [S::f64s; D] {
-    let Some(first) = coefficients.next() else { return [simd.splat_f64s(0.0); D] };
-    let mut sum = splat(simd, first);
-    for next in coefficients {
+    let Some((last, rest)) = coefficients.split_last() else { return [simd.splat_f64s(0.0); D] };
+    let mut sum = splat(simd, last);
+    for next in rest.iter().rev() {
         for c in 0..D {
             sum[c] = simd.mul_add_f64s(sum[c], x, simd.splat_f64s(next[c]));
         }
@@ -113,7 +118,7 @@ fn horner<'a, S: Lanes, const D: usize>(
 
 /// One point in all lanes.
 #[inline(always)]
-pub(super) fn splat<S: Lanes, const D: usize>(simd: S, point: &[f64; D]) -> [S::f64s; D] {
+fn splat<S: Lanes, const D: usize>(simd: S, point: &[f64; D]) -> [S::f64s; D] {
     let mut lanes = [simd.splat_f64s(0.0); D];
     for c in 0..D {
         lanes[c] = simd.splat_f64s(point[c]);

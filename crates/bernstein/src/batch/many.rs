@@ -160,7 +160,12 @@ fn elevate_all(points: &[f64], degrees: [usize; 2], to: [usize; 2], dimension: u
     let count = CHUNK.div_ceil(larger);
     let jobs = points.chunks(count * size);
     each_chunk(jobs, [out.chunks_mut(count * larger)], |points, [out]| {
-        dispatch_in::<_, 1>(Elevate { points, size, dimension, width, in_u: &in_u, in_v: &in_v, out });
+        let (in_u, in_v) = (&in_u[..], &in_v[..]);
+        if (degrees, to, dimension) == ([3, 3], [4, 4], 3) {
+            dispatch_in::<_, 1>(Elevate::<true> { points, size, dimension, width, in_u, in_v, out });
+        } else {
+            dispatch_in::<_, 1>(Elevate::<false> { points, size, dimension, width, in_u, in_v, out });
+        }
     });
 }
 
@@ -173,7 +178,8 @@ fn elevation_matrix(n: usize, m: usize) -> Vec<Vec<f64>> {
     (0..=m).map(|j| (0..=n).map(|i| entry(j, i)).collect()).collect()
 }
 
-struct Elevate<'a> {
+/// `BICUBIC` says that the numbers are those of (3,3) → (4,4) in space, so that loops can be unrolled.
+struct Elevate<'a, const BICUBIC: bool> {
     points: &'a [f64],
     /// Numbers a net.
     size: usize,
@@ -185,50 +191,60 @@ struct Elevate<'a> {
     out: &'a mut [f64],
 }
 
-impl Job for Elevate<'_> {
+impl<const BICUBIC: bool> Job for Elevate<'_, BICUBIC> {
     type Output = ();
 
     #[inline(always)]
     fn run<S: Lanes, const D: usize>(self, simd: S) {
-        let Self { points, size, dimension, width, in_u, in_v, out } = self;
-        let rows = in_u[0].len();
+        let Self { points, in_u, in_v, out, .. } = self;
+        let (size, dimension, width) =
+            if BICUBIC { (48, 3, 15) } else { (self.size, self.dimension, self.width) };
+        let (rows, in_u, in_v) =
+            if BICUBIC { (4, &in_u[..5], &in_v[..2]) } else { (in_u[0].len(), in_u, in_v) };
         let row = size / rows;
-        // Numbers before and after a row are multiplied by zero.
+        let stride = width.next_multiple_of(WIDTH);
+        // Numbers before and after a row are read and multiplied by zero.
         let before = (in_v.len() - 1) * dimension;
-        let mut net = vec![0.0; size + WIDTH];
-        let mut raised = vec![0.0; before + row.max(width) + 2 * WIDTH];
-        let mut place = 0;
-        for points in points.chunks_exact(size) {
-            net[..size].copy_from_slice(points);
-            for (j, weights) in in_u.iter().enumerate() {
-                // The others are zero.
-                let (from, to) = ((j + rows).saturating_sub(in_u.len()), rows.min(j + 1));
+        let mut padded = vec![0.0; before + size + stride + WIDTH];
+        let mut raised = vec![0.0; rows * stride];
+        for (number, out) in out.chunks_exact_mut(in_u.len() * width).enumerate() {
+            let first = number * size;
+            let around = first.checked_sub(before).and_then(|from| points.get(from..from + padded.len()));
+            let source = around.unwrap_or_else(|| {
+                padded[before..before + size].copy_from_slice(&points[first..first + size]);
+                &padded
+            });
+            for (i, raised) in raised.chunks_exact_mut(stride).enumerate() {
+                let source = &source[i * row..];
                 let mut x = 0;
-                while x < row {
-                    let mut sum = simd.splat_f64s(0.0);
-                    for i in from..to {
-                        let weight = simd.splat_f64s(weights[i]);
-                        sum = simd.mul_add_f64s(weight, simd.load(&net, i * row + x), sum);
-                    }
-                    S::as_mut_simd_f64s(&mut raised[before + x..]).0[0] = sum;
-                    x += S::F64_LANES;
-                }
-                // What the last register wrote beyond the row.
-                raised[before + row..][..WIDTH].fill(0.0);
-                x = 0;
                 while x < width {
                     let mut sum = simd.splat_f64s(0.0);
                     for (k, weights) in in_v.iter().enumerate() {
-                        let left = simd.load(&raised, before + x - k * dimension);
+                        let left = simd.load(source, before + x - k * dimension);
                         sum = simd.mul_add_f64s(simd.load(weights, x), left, sum);
                     }
-                    match out.get_mut(place + x..place + x + S::F64_LANES) {
+                    S::as_mut_simd_f64s(&mut raised[x..]).0[0] = sum;
+                    x += S::F64_LANES;
+                }
+            }
+            for (j, weights) in in_u.iter().enumerate() {
+                // The other weights are zero.
+                let (from, to) = ((j + rows).saturating_sub(in_u.len()), rows.min(j + 1));
+                let out = &mut out[j * width..];
+                let mut x = 0;
+                while x < width {
+                    let mut sum = simd.splat_f64s(0.0);
+                    for i in from..to {
+                        let weight = simd.splat_f64s(weights[i]);
+                        sum = simd.mul_add_f64s(weight, simd.load(&raised, i * stride + x), sum);
+                    }
+                    // What goes beyond the row is overwritten by the next.
+                    match out.get_mut(x..x + S::F64_LANES) {
                         Some(room) => S::as_mut_simd_f64s(room).0[0] = sum,
-                        None => simd.partial_store_f64s(&mut out[place + x..], sum),
+                        None => simd.partial_store_f64s(&mut out[x..], sum),
                     }
                     x += S::F64_LANES;
                 }
-                place += width;
             }
         }
     }

@@ -19,16 +19,18 @@
 //! batches of more than 8192 points are spread over rayon's threads; install a pool of one thread where that
 //! is not wanted.
 //!
-//! **Methods.** Chosen by what they cost a degree: the basis takes three multiplications, and one multiply-add a
-//! component; nested multiplication and the linear-time scheme of Woźny and Chudy take two operations a component
-//! and more; Horner's scheme in the quotient t/(1−t), or its inverse, takes one multiply-add a component, and one
-//! division in all.
-//! - Curves take Horner's scheme: up to degree 9 in t/(1−t) for every t, above in whichever quotient is at
-//!   most 1, parameter by parameter.
-//! - Scattered points take it in both parameters up to a total degree of 9, and the basis up to degree 31 in
-//!   each; beyond, or where u or v is 1 exactly, the basis. Above degree 31 they go one by one through
+//! **Methods.** Chosen by what they cost a degree: the basis takes three multiplications, and one
+//! multiply-add a component; nested multiplication and the linear-time scheme of Woźny and Chudy take two
+//! operations a component and more; Horner's scheme in the quotient t/(1−t), or its inverse, takes one
+//! multiply-add a component, and one division in all.
+//! - Curves take Horner's scheme in t/(1−t), but in (1−t)/t near t = 1: where the power of the quotient would
+//!   leave the range of numbers (up to degree 9 the last number below 1 alone, 2⁻¹⁸ about 1 at degree 25),
+//!   and above degree 238 for all t > ½. Each parameter is decided on its own.
+//! - Grids contract the net to one curve a row and evaluate it so, the quotients being made once for each
+//!   column.
+//! - Scattered points take the scheme in both parameters up to a total degree of 9, and the basis up to
+//!   degree 31 in each; the basis, too, where u or v is 1 exactly. Above degree 31 they go one by one through
 //!   [`TensorNet::partials`](crate::TensorNet::partials).
-//! - Grids contract the net to one curve a row, and add that up with the basis of each column, made once.
 //!
 //! **Limits.** Any finite parameter, degrees up to [`MAX_DEGREE`](crate::MAX_DEGREE), coordinates up to
 //! 10¹⁵⁰. The error is the crate's, `4(n + 2k + 2)·u·scale`, for parameters outside `[0, 1]` too.
@@ -37,6 +39,7 @@ mod blocks;
 mod coefficients;
 mod curve;
 mod grid;
+mod grid_kernel;
 mod grid_table;
 mod horner;
 mod many;

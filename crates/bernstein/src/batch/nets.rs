@@ -1,10 +1,17 @@
 //! A net with its difference nets, and their contraction to the curves u = constant.
 
-use super::grid_table::Table;
+// As in `simd.rs`: plain loops over registers.
+#![allow(clippy::needless_range_loop)]
+
+use super::grid_table::Rows;
 use super::simd::{Lanes, WIDTH};
+use crate::{binomial, partial_index};
 
 /// The orders (a, b) of ∂ᵃ⁺ᵇ/∂uᵃ∂vᵇ, in the order of [`partial_index`](crate::partial_index).
 pub(super) const ORDERS: [[usize; 2]; 6] = [[0, 0], [1, 0], [0, 1], [2, 0], [1, 1], [0, 2]];
+
+/// Degree of a kernel that takes every degree; those with a number have their loops unrolled.
+pub(super) const ANY: usize = usize::MAX;
 
 /// The nets `m!/(m−a)! · n!/(n−b)! · Δᵃ⁰Δ⁰ᵇ Pᵢⱼ` of the first `count` orders, for points of `dimension`
 /// numbers.
@@ -68,6 +75,20 @@ impl Nets {
         }
     }
 
+    /// Multiplies the point of column j by `C(n−b,j)`, as Horner's scheme in v wants it.
+    pub(super) fn multiply_by_binomials(&mut self) {
+        for (net, &[a, b]) in self.of_order.iter_mut().zip(&ORDERS) {
+            let [rows, columns] = extent(self.degrees, a, b);
+            for j in 1..columns.saturating_sub(1) {
+                let factor = binomial(columns - 1, j);
+                for i in 0..rows {
+                    let point = &mut net[(i * columns + j) * self.dimension..][..self.dimension];
+                    point.iter_mut().for_each(|x| *x *= factor);
+                }
+            }
+        }
+    }
+
     /// The nets alone.
     pub(super) fn into_nets(self) -> Vec<Vec<f64>> {
         self.of_order
@@ -83,29 +104,59 @@ impl Nets {
         }
     }
 
-    /// The curves in v at row `at` of the grid: `Σᵢ Bᵢᵐ⁻ᵃ(u) Nᵢⱼ`.
+    /// The coefficients of the curves in v at row `at` of the grid, for the first `K` orders: `Σᵢ Bᵢᵐ⁻ᵃ(u)
+    /// Nᵢⱼ`.
+    ///
+    /// `N` is the degree in both directions where the compiler is to know it, [`ANY`] otherwise.
     #[inline(always)]
-    pub(super) fn contract<S: Lanes>(&mut self, simd: S, table: &Table, at: usize) {
-        for (place, (net, curve)) in self.of_order.iter().zip(&mut self.curves).enumerate() {
-            let [a, b] = ORDERS[place];
-            let length = extent(self.degrees, a, b)[1] * self.dimension;
-            let basis = table.row(a, at);
-            let mut x = 0;
-            while x < length {
-                let mut sum = simd.splat_f64s(0.0);
-                for (i, &basis) in basis.iter().enumerate() {
-                    sum = simd.mul_add_f64s(simd.splat_f64s(basis), simd.load(net, i * length + x), sum);
-                }
-                S::as_mut_simd_f64s(&mut curve[x..x + S::F64_LANES]).0[0] = sum;
-                x += S::F64_LANES;
-            }
+    pub(super) fn contract<S: Lanes, const K: usize, const N: usize, const D: usize>(
+        &mut self,
+        simd: S,
+        rows: &Rows,
+        at: usize,
+    ) {
+        // Written out: the compiler must see the orders to unroll what depends on them.
+        self.contract_one::<S, N, D, 0, 0>(simd, rows, at);
+        if K >= 3 {
+            self.contract_one::<S, N, D, 1, 0>(simd, rows, at);
+            self.contract_one::<S, N, D, 0, 1>(simd, rows, at);
+        }
+        if K >= 6 {
+            self.contract_one::<S, N, D, 2, 0>(simd, rows, at);
+            self.contract_one::<S, N, D, 1, 1>(simd, rows, at);
+            self.contract_one::<S, N, D, 0, 2>(simd, rows, at);
         }
     }
 
-    /// The curve of the order at `place`, of the row that was contracted last.
     #[inline(always)]
-    pub(super) fn curve<const D: usize>(&self, place: usize) -> &[[f64; D]] {
-        self.curves[place].as_chunks().0
+    fn contract_one<S: Lanes, const N: usize, const D: usize, const A: usize, const B: usize>(
+        &mut self,
+        simd: S,
+        rows: &Rows,
+        at: usize,
+    ) {
+        let [height, columns] = extent(if N == ANY { self.degrees } else { [N, N] }, A, B);
+        let place = partial_index(A, B);
+        let basis = &rows.basis(A, at)[..height];
+        let net = &self.of_order[place][..height * columns * D + WIDTH];
+        let curve = &mut self.curves[place][..columns * D + WIDTH];
+        let mut x = 0;
+        while x < columns * D {
+            let mut sum = simd.splat_f64s(0.0);
+            for i in 0..height {
+                let numbers = simd.load(net, i * columns * D + x);
+                sum = simd.mul_add_f64s(simd.splat_f64s(basis[i]), numbers, sum);
+            }
+            S::as_mut_simd_f64s(&mut curve[x..x + S::F64_LANES]).0[0] = sum;
+            x += S::F64_LANES;
+        }
+    }
+
+    /// The coefficients of the order at `place`, which is `B` in v, of the row that was contracted last.
+    #[inline(always)]
+    pub(super) fn curve<const D: usize, const N: usize, const B: usize>(&self, place: usize) -> &[[f64; D]] {
+        let degree = if N == ANY { self.degrees[1] } else { N };
+        &self.curves[place].as_chunks().0[..(degree + 1).saturating_sub(B)]
     }
 }
 

@@ -17,7 +17,7 @@ use super::horner::ONE_SIDED;
 use super::nets::{Nets, ORDERS};
 use super::parallel::{CHUNK, each_chunk};
 use super::patch_kernel::{At, BASIS, BICUBIC, MAX_BASIS, QUOTIENTS, load_pairs};
-use super::quotient::{lane, largest_weight, refuse_pole, scale, settle, surface, uncertainty};
+use super::quotient::{lane, largest_weight, refuse_pole, scale, settle, surface, suspicious, uncertainty};
 use super::simd::{Job, Lanes, dispatch, dispatch_in};
 use super::{BatchPoint, check_length};
 use crate::glam::{DVec2, DVec3, DVec4};
@@ -155,7 +155,7 @@ impl PatchBatch<DVec4> {
             self.one_by_one(parameters, K, |place, jet| {
                 let mut all = [[0.0; 4]; K];
                 all.iter_mut().zip(jet).for_each(|(to, p)| *to = p.to_array());
-                let (points, _) = surface(Scalar, all, 0.0);
+                let points = surface(Scalar, &all);
                 for (out, point) in out.iter_mut().zip(points) {
                     out[3 * place..3 * place + 3].copy_from_slice(&point);
                 }
@@ -313,11 +313,11 @@ impl<const K: usize, const RATIONAL: bool, const WAY: u8> Job for Scattered<'_, 
                 let size = |s, t| simd.add_f64s(simd.abs_f64s(s), simd.abs_f64s(t));
                 let spread = simd.mul_f64s(simd.power(size(at.su, u), m), simd.power(size(at.sv, v), n));
                 let least = simd.mul_f64s(simd.splat_f64s(weight), spread);
-                let (points, suspicious) = surface(simd, homogeneous, least);
+                let points = surface(simd, &homogeneous);
                 for k in 0..K {
                     store(simd, out[k], place, points[k]);
                 }
-                if simd.any(suspicious) {
+                if simd.any(suspicious(simd, homogeneous[0][3], &points, least)) {
                     for l in 0..S::F64_LANES.min(count - place) {
                         let denominator = lane::<S>(homogeneous[0][3], l);
                         if settle(denominator, patch.bound(place + l), &mut out, place + l) {

@@ -3,7 +3,7 @@
 // As in `simd.rs`: plain loops over registers.
 #![allow(clippy::needless_range_loop)]
 
-use super::horner::splat;
+use super::horner::horner;
 use super::nets::ORDERS;
 use super::patch::View;
 use super::simd::{Job, Lanes, WIDTH, dispatch_in};
@@ -75,16 +75,11 @@ impl<S: Lanes> At<S> {
         let [Some(m), Some(n)] = [m.checked_sub(A), n.checked_sub(B)] else { return sum };
         let k = partial_index(A, B);
         let q: &[[f64; D]] = &patch.scaled[k].as_chunks().0[..(m + 1) * (n + 1)];
-        for i in (0..=m).rev() {
-            let q = &q[i * (n + 1)..][..n + 1];
-            let mut row = splat(simd, &q[n]);
-            for j in (0..n).rev() {
-                for c in 0..D {
-                    row[c] = simd.mul_add_f64s(row[c], self.y, simd.splat_f64s(q[j][c]));
-                }
-            }
+        sum = horner(simd, &q[m * (n + 1)..], self.y);
+        for i in (0..m).rev() {
+            let row = horner(simd, &q[i * (n + 1)..(i + 1) * (n + 1)], self.y);
             for c in 0..D {
-                sum[c] = if i == m { row[c] } else { simd.mul_add_f64s(sum[c], self.x, row[c]) };
+                sum[c] = simd.mul_add_f64s(sum[c], self.x, row[c]);
             }
         }
         let power = simd.mul_f64s(simd.power(self.su, m), simd.power(self.sv, n));

@@ -17,15 +17,9 @@ pub(super) fn uncertainty(degree: usize) -> f64 {
 /// Quotient rule for a surface: `S_α = (N_α − Σ_{0<β≤α} C(α,β) w_β S_{α−β}) / w`, K = 1, 3 or 6 orders in the
 /// order of [`partial_index`](crate::partial_index).
 ///
-/// The second answer says for which lanes w is at most `least` in size, or the quotient is not finite.
-///
 /// Source: Piegl and Tiller, *The NURBS Book*, 2nd ed., sec. 4.5.
 #[inline(always)]
-pub(super) fn surface<S: Lanes, const K: usize>(
-    simd: S,
-    jet: [[S::f64s; 4]; K],
-    least: S::f64s,
-) -> ([[S::f64s; 3]; K], S::m64s) {
+pub(super) fn surface<S: Lanes, const K: usize>(simd: S, jet: &[[S::f64s; 4]; K]) -> [[S::f64s; 3]; K] {
     let inverse = simd.div_f64s(simd.splat_f64s(1.0), jet[0][3]);
     let mut out = [[simd.splat_f64s(0.0); 3]; K];
     for c in 0..3 {
@@ -51,17 +45,13 @@ pub(super) fn surface<S: Lanes, const K: usize>(
         out[4][c] = simd.mul_f64s(duv, inverse);
         out[5][c] = simd.mul_f64s(dvv, inverse);
     }
-    (out, suspicious(simd, jet[0][3], &out, least))
+    out
 }
 
 /// Quotient rule for a curve, `C⁽ᵏ⁾ = (N⁽ᵏ⁾ − Σ_{0<j≤k} C(k,j) w⁽ʲ⁾ C⁽ᵏ⁻ʲ⁾) / w`, up to order 2; otherwise as
 /// [`surface`].
 #[inline(always)]
-pub(super) fn curve<S: Lanes, const K: usize>(
-    simd: S,
-    jet: [[S::f64s; 4]; K],
-    least: S::f64s,
-) -> ([[S::f64s; 3]; K], S::m64s) {
+pub(super) fn curve<S: Lanes, const K: usize>(simd: S, jet: &[[S::f64s; 4]; K]) -> [[S::f64s; 3]; K] {
     let inverse = simd.div_f64s(simd.splat_f64s(1.0), jet[0][3]);
     let mut out = [[simd.splat_f64s(0.0); 3]; K];
     for c in 0..3 {
@@ -79,12 +69,12 @@ pub(super) fn curve<S: Lanes, const K: usize>(
         let d2 = simd.mul_add_f64s(simd.add_f64s(d1, d1), weight(1), jet[2][c]);
         out[2][c] = simd.mul_f64s(simd.mul_add_f64s(point, weight(2), d2), inverse);
     }
-    (out, suspicious(simd, jet[0][3], &out, least))
+    out
 }
 
-/// Lanes with a denominator of at most `least` or an answer that is not finite.
+/// Lanes with a denominator of at most `least` in size or an answer that is not finite.
 #[inline(always)]
-fn suspicious<S: Lanes, const K: usize>(
+pub(super) fn suspicious<S: Lanes, const K: usize>(
     simd: S,
     denominator: S::f64s,
     out: &[[S::f64s; 3]; K],
@@ -129,6 +119,17 @@ pub(super) fn settle(denominator: f64, bound: f64, out: &mut [&mut [f64]], place
 pub(super) fn scale(net: &[f64], in_u: &[f64], in_v: &[f64]) -> f64 {
     let row = |row: &[f64]| -> f64 { row.chunks_exact(4).zip(in_v).map(|(p, b)| (p[3] * b).abs()).sum() };
     net.chunks_exact(4 * in_v.len()).zip(in_u).map(|(points, b)| row(points) * b.abs()).sum()
+}
+
+/// Whether inside `[0, 1]` no denominator of these points can vanish and no quotient, derivatives to order 2
+/// included, can leave the range of numbers: all weights have one sign, and are within 10⁶⁰ of each other and
+/// of all components.
+pub(super) fn is_tame(points: &[f64]) -> bool {
+    let weights = || points.chunks_exact(4).map(|p| p[3]);
+    let least = weights().fold(f64::INFINITY, |m, w| m.min(w.abs()));
+    let largest = points.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let one_sign = weights().all(|w| w > 0.0) || weights().all(|w| w < 0.0);
+    one_sign && least > 1e-150 && largest < 1e150 && largest < 1e60 * least
 }
 
 /// The largest weight in size.

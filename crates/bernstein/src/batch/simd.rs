@@ -142,6 +142,13 @@ pub(super) trait Lanes: Simd {
         self.first_true_m64s(mask) != Self::F64_LANES
     }
 
+    /// Whether all lanes are true.
+    #[inline(always)]
+    fn all(self, mask: Self::m64s) -> bool {
+        let zero = self.splat_f64s(0.0);
+        !self.any(self.xor_m64s(mask, self.equal_f64s(zero, zero)))
+    }
+
     /// The power of a non-negative integer exponent, with less than `exponent` roundings.
     #[inline(always)]
     fn power(self, x: Self::f64s, exponent: usize) -> Self::f64s {
@@ -246,6 +253,20 @@ mod x86 {
         simd.avx512f._mm512_permutex2var_pd(a, cast::<[u64; 8], __m512i>(lanes), b)
     }
 
+    /// Lane l taken from lane `lanes[l]`.
+    #[inline(always)]
+    fn rotate(simd: V4, a: __m512d, lanes: [u64; 8]) -> __m512d {
+        simd.avx512f._mm512_permutexvar_pd(cast::<[u64; 8], __m512i>(lanes), a)
+    }
+
+    /// y where the bit of `ys` is set, z where that of `zs` is, x elsewhere; the lowest bit is that of lane
+    /// 0.
+    #[inline(always)]
+    fn choose(simd: V4, [x, y, z]: [__m512d; 3], ys: u8, zs: u8) -> __m512d {
+        let xy = simd.avx512f._mm512_mask_blend_pd(ys, x, y);
+        simd.avx512f._mm512_mask_blend_pd(zs, xy, z)
+    }
+
     impl Lanes for V4 {
         #[inline(always)]
         fn interleave<const D: usize>(self, parts: [f64x8; D]) -> [f64x8; D] {
@@ -260,13 +281,13 @@ mod x86 {
                     out[1] = pick(self, p[0], p[1], [4, 12, 5, 13, 6, 14, 7, 15]);
                 }
                 3 => {
-                    // First x and y at their places, then z into the gaps.
-                    let xy = pick(self, p[0], p[1], [0, 8, 0, 1, 9, 0, 2, 10]);
-                    out[0] = pick(self, xy, p[2], [0, 1, 8, 3, 4, 9, 6, 7]);
-                    let xy = pick(self, p[0], p[1], [0, 3, 11, 0, 4, 12, 0, 5]);
-                    out[1] = pick(self, xy, p[2], [10, 1, 2, 11, 4, 5, 12, 7]);
-                    let xy = pick(self, p[0], p[1], [13, 0, 6, 14, 0, 7, 15, 0]);
-                    out[2] = pick(self, xy, p[2], [0, 13, 2, 3, 14, 5, 6, 15]);
+                    // Lane l of component c belongs to lane (3l + c) mod 8 of one of the three.
+                    let x = rotate(self, p[0], [0, 3, 6, 1, 4, 7, 2, 5]);
+                    let y = rotate(self, p[1], [5, 0, 3, 6, 1, 4, 7, 2]);
+                    let z = rotate(self, p[2], [2, 5, 0, 3, 6, 1, 4, 7]);
+                    out[0] = choose(self, [x, y, z], 0b1001_0010, 0b0010_0100);
+                    out[1] = choose(self, [x, y, z], 0b0010_0100, 0b0100_1001);
+                    out[2] = choose(self, [x, y, z], 0b0100_1001, 0b1001_0010);
                 }
                 4 => {
                     let low = [0, 8, 1, 9, 2, 10, 3, 11];
