@@ -197,6 +197,15 @@ pub struct Plot {
     /// Leave the control nets out.
     #[arg(long, conflicts_with = "domain")]
     pub no_net: bool,
+    /// De Casteljau's construction at a parameter: T of curves, U,V of patches, λ1,λ2 of triangles.
+    #[arg(long, value_name = "T[,..]", allow_hyphen_values = true, conflicts_with = "domain")]
+    pub construction: Option<String>,
+    /// Curvature combs of curves.
+    #[arg(long, conflicts_with = "domain")]
+    pub comb: bool,
+    /// Frenet frames along each curve.
+    #[arg(long, value_name = "COUNT", default_value_t = 0, conflicts_with = "domain")]
+    pub frames: usize,
     /// Isolines of a family.
     #[arg(long, value_name = "COUNT")]
     pub levels: Option<usize>,

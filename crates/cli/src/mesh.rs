@@ -52,7 +52,8 @@ pub fn run(options: &Mesh, json: bool) -> Result<(), Failure> {
     let shapes = input.shapes.iter().map(|(_, named)| input.geometry(named));
     let shapes = shapes.collect::<Result<Vec<_>, _>>()?;
     if shapes.iter().all(|shape| shape.as_curve().is_some()) {
-        return polylines::run(options, &input, &shapes, format, json);
+        let TessellationOptions { density, max_vertices, .. } = tessellation(options, &shapes);
+        return polylines::run(options, &input, &shapes, (density, max_vertices), format, json);
     }
     let faces = faces(&input, &shapes)?;
     let tessellation = tessellation(options, &shapes);

@@ -105,6 +105,11 @@ impl Parameters {
     }
 }
 
+/// The numbers of one parameter, with commas between them.
+pub fn numbers(text: &str) -> Result<Vec<f64>, String> {
+    parse(text, 0).map(|parameter| parameter.numbers().to_vec())
+}
+
 fn parse(text: &str, line: usize) -> Result<Parameter, String> {
     let mut parameter = Parameter { numbers: [0.0; MOST], count: 0, line };
     for word in text.split(',') {

@@ -1,22 +1,26 @@
-//! `casteljau mesh` of curves: polylines through points at equal steps of the parameter.
+//! `casteljau mesh` of curves: polylines.
 
 use casteljau::glam::DVec3;
 use casteljau::io::{Geometry, MeshFormat, obj, ply};
+use casteljau::shape::{RationalCurve, ShapeError};
+use casteljau::tess::{Density, SideSamples};
 use serde::Serialize;
 
 use crate::arguments::Mesh;
 use crate::failure::Failure;
 use crate::input::{Input, is_dash};
-use crate::number::human;
+use crate::number::{brief, human};
 use crate::output::{Lines, write};
 
-/// What was written; `length` is that of the polylines.
+/// What was written; `length` is that of the polylines, `chord_error` a bound, null with a resolution.
 #[derive(Serialize)]
 struct Report {
     output: String,
     shapes: usize,
     vertices: usize,
     edges: usize,
+    tolerance: Option<f64>,
+    chord_error: Option<f64>,
     length: f64,
 }
 
@@ -25,6 +29,7 @@ pub fn run(
     options: &Mesh,
     input: &Input,
     shapes: &[Geometry],
+    (density, most): (Density, usize),
     format: MeshFormat,
     json: bool,
 ) -> Result<(), Failure> {
@@ -34,23 +39,21 @@ pub fn run(
             options.output.display()
         )));
     }
-    let Some(steps) = options.resolution else {
-        return Err(Failure::Usage(
-            "curves are meshed by --resolution: a tolerance is not supported yet".into(),
-        ));
-    };
-    let most = options.max_vertices.unwrap_or(casteljau::tess::DEFAULT_MAX_VERTICES);
-    let needed = steps.saturating_add(1).saturating_mul(shapes.len());
-    if needed > most {
-        return Err(Failure::Bad(format!("{}: {needed} vertices are more than {most}", input.name)));
-    }
-    let mut polylines = Vec::with_capacity(shapes.len());
+    let (mut polylines, mut chord_error, mut vertices) = (Vec::with_capacity(shapes.len()), 0.0, 0);
     for (geometry, (_, named)) in shapes.iter().zip(&input.shapes) {
-        let Some(curve) = geometry.as_curve() else { continue };
-        let interval = curve.interval();
-        let at = |k: usize| curve.try_point(interval.at(k as f64 / steps as f64));
-        let points = (0..=steps).map(at).collect::<Result<Vec<DVec3>, _>>();
-        polylines.push(points.map_err(|error| Failure::Bad(format!("{}: {error}", named.place())))?);
+        let placed = |error: ShapeError| Failure::Bad(format!("{}: {error}", named.place()));
+        let Some(curve) = bezier(geometry).transpose().map_err(placed)? else { continue };
+        // A polyline has a vertex more than edges.
+        let room = most.saturating_sub(vertices).saturating_sub(1);
+        let Some(samples) = SideSamples::rational(&curve, density, room) else {
+            return Err(Failure::Bad(format!(
+                "{}: the curve has a pole, or needs more than {room} edges",
+                named.place()
+            )));
+        };
+        chord_error = f64::max(chord_error, samples.chord_error());
+        vertices += samples.points().len();
+        polylines.push(samples.points().to_vec());
     }
     write(&options.output, |out| match format {
         MeshFormat::Ply => ply::write_polylines(&polylines, out),
@@ -63,8 +66,13 @@ pub fn run(
     let report = Report {
         output: options.output.display().to_string(),
         shapes: polylines.len(),
-        vertices: needed,
-        edges: steps * polylines.len(),
+        vertices,
+        edges: vertices - polylines.len(),
+        tolerance: match density {
+            Density::Tolerance(tolerance) => Some(tolerance),
+            Density::Resolution(_) => None,
+        },
+        chord_error: matches!(density, Density::Tolerance(_)).then_some(chord_error),
         length: polylines.iter().map(length).sum(),
     };
     let mut lines = Lines::new();
@@ -73,8 +81,21 @@ pub fn run(
         false => {
             lines
                 .text(&format!("{}: {} vertices, {} edges", report.output, report.vertices, report.edges))?;
+            if let (Some(error), Some(tolerance)) = (report.chord_error, report.tolerance) {
+                lines.text(&format!("  chord error  {} (tolerance {})", brief(error), human(tolerance)))?;
+            }
             lines.text(&format!("  length       {}", human(report.length)))?;
         }
     }
     lines.finish()
+}
+
+/// A curve in rational Bernstein form.
+fn bezier(geometry: &Geometry) -> Option<Result<RationalCurve, ShapeError>> {
+    match geometry {
+        Geometry::Curve(curve) => Some(Ok(curve.clone().into())),
+        Geometry::RationalCurve(curve) => Some(Ok(curve.clone())),
+        Geometry::PowerCurve(curve) => Some(curve.to_bezier().map(Into::into)),
+        _ => None,
+    }
 }

@@ -1,7 +1,6 @@
 //! What can be drawn beside GB patches: curves, patches and triangles, all in rational Bernstein form.
 
 use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
-use casteljau_shape::bernstein::{from_power, from_power_tensor};
 use casteljau_shape::{
     Curve, Patch, PowerCurve, PowerPatch, RationalCurve, RationalPatch, RationalTriangle, ShapeError,
     Triangle,
@@ -37,10 +36,7 @@ impl TryFrom<&PowerCurve> for CurveShape {
 
     /// The curve with the control points that it has over its interval.
     fn try_from(curve: &PowerCurve) -> Result<Self, ShapeError> {
-        let mut points = vec![DVec3::ZERO; curve.coefficients().len()];
-        let interval = curve.interval();
-        from_power(curve.coefficients(), [interval.start(), interval.end()], &mut points)?;
-        Ok(Self(Curve::new(points)?.with_interval(interval).into()))
+        Ok(Self(curve.to_bezier()?.into()))
     }
 }
 
@@ -73,11 +69,7 @@ impl TryFrom<&PowerPatch> for SurfaceShape {
 
     /// The patch with the control points that it has over its rectangle.
     fn try_from(patch: &PowerPatch) -> Result<Self, ShapeError> {
-        let mut points = vec![DVec3::ZERO; patch.coefficients().len()];
-        let intervals = patch.intervals();
-        let ends = intervals.map(|i| [i.start(), i.end()]);
-        from_power_tensor(patch.coefficients(), patch.degrees(), ends, &mut points)?;
-        Ok(Self::Patch(Patch::new(patch.degrees(), points)?.with_intervals(intervals).into()))
+        Ok(Self::Patch(patch.to_bezier()?.into()))
     }
 }
 

@@ -5,7 +5,7 @@ use std::borrow::Cow::{Borrowed, Owned};
 use casteljau_domain::{Orientation, Polygon};
 use casteljau_gb::{ConcavePatch, GbError, Location, SampleSet, SurfaceJet};
 use casteljau_geom::glam::{DVec3, DVec4};
-use casteljau_shape::{Patch, PowerPatch, ShapeError, bernstein::from_power_tensor};
+use casteljau_shape::ShapeError;
 
 use crate::charted::Charted;
 use crate::poles::{refuse_in_patch, refuse_in_triangle};
@@ -85,7 +85,7 @@ pub(crate) fn open(face: Face<'_>, index: usize) -> Result<Box<dyn Surface + '_>
             Box::new(Charted::patch(Borrowed(patch)).map_err(domain)?)
         }
         Face::PowerPatch(patch) => {
-            let patch = bernstein_form(patch).map_err(wrong)?;
+            let patch = patch.to_bezier().map_err(wrong)?;
             Box::new(Charted::patch(Owned(patch)).map_err(domain)?)
         }
         Face::Triangle(triangle) => Box::new(Charted::triangle(Borrowed(triangle)).map_err(domain)?),
@@ -94,13 +94,6 @@ pub(crate) fn open(face: Face<'_>, index: usize) -> Result<Box<dyn Surface + '_>
             Box::new(Charted::triangle(Borrowed(triangle)).map_err(domain)?)
         }
     })
-}
-
-fn bernstein_form(patch: &PowerPatch) -> Result<Patch, ShapeError> {
-    let mut net = vec![DVec3::ZERO; patch.coefficients().len()];
-    let intervals = patch.intervals().map(|i| [i.start(), i.end()]);
-    from_power_tensor(patch.coefficients(), patch.degrees(), intervals, &mut net)?;
-    Ok(Patch::new(patch.degrees(), net)?.with_intervals(patch.intervals()))
 }
 
 impl Surface for &ConcavePatch {
