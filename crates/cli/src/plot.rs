@@ -66,7 +66,7 @@ fn curve(shape: &Geometry) -> Option<Result<CurveShape, PlotError>> {
     match shape {
         Geometry::Curve(curve) => Some(Ok(curve.into())),
         Geometry::RationalCurve(curve) => Some(Ok(curve.into())),
-        Geometry::PowerCurve(curve) => Some(curve.try_into()),
+        Geometry::PowerCurve(curve) => Some(curve.try_into().map_err(PlotError::from)),
         _ => None,
     }
 }
@@ -75,7 +75,7 @@ fn surface(shape: &Geometry) -> Option<Result<SurfaceShape, PlotError>> {
     match shape {
         Geometry::Patch(patch) => Some(Ok(patch.into())),
         Geometry::RationalPatch(patch) => Some(Ok(patch.into())),
-        Geometry::PowerPatch(patch) => Some(patch.try_into()),
+        Geometry::PowerPatch(patch) => Some(patch.try_into().map_err(PlotError::from)),
         Geometry::Triangle(triangle) => Some(Ok(triangle.into())),
         Geometry::RationalTriangle(triangle) => Some(Ok(triangle.into())),
         _ => None,
