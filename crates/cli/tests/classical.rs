@@ -304,8 +304,80 @@ fn curves_become_polylines() {
     let start = bytes.windows(end.len()).position(|window| window == end).unwrap() + end.len();
     assert_eq!(bytes.len() - start, 101 * 24 + 100 * 8);
     mesh("c.stl").bad(1, &["c.stl: curves have no triangles"]);
-    casteljau(&["mesh", &circle, "-o", &at("c.obj")]).bad(2, &["--resolution"]);
     let huge = usize::MAX.to_string();
     casteljau(&["mesh", &circle, "-o", &at("c.obj"), "--resolution", &huge])
-        .bad(1, &["vertices are more than"]);
+        .bad(1, &["circle.json", "needs more than", "edges"]);
+}
+
+#[test]
+fn polylines_keep_a_tolerance() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = path(&folder.path().join("c.obj"));
+    let circle = model("circle.json");
+    let line =
+        casteljau(&["mesh", &circle, "-o", &out, "--tolerance", "1e-4", "--json"]).good().json().remove(0);
+    let bound = number(&line["chord_error"]);
+    assert!(bound <= 1e-4);
+    // The unit circle leaves a chord between angles 2φ apart by 1 − cos φ.
+    let text = std::fs::read_to_string(&out).unwrap();
+    let points: Vec<[f64; 2]> = text
+        .lines()
+        .filter_map(|line| line.strip_prefix("v "))
+        .map(|line| {
+            let mut numbers = line.split(' ').map(|word| word.parse().unwrap());
+            [numbers.next().unwrap(), numbers.next().unwrap()]
+        })
+        .collect();
+    assert_eq!(json!(points.len()), line["vertices"]);
+    let sagitta = |[[a, b], [c, d]]: [[f64; 2]; 2]| 1.0 - (0.5 * (a + c)).hypot(0.5 * (b + d));
+    let worst = points.windows(2).map(|ends| sagitta([ends[0], ends[1]])).fold(0.0, f64::max);
+    assert!(worst <= bound && worst >= 0.2e-4, "{worst:e} of {bound:e}");
+    // Without either option a tolerance is chosen by the size.
+    let line = casteljau(&["mesh", &circle, "-o", &out, "--json"]).good().json().remove(0);
+    assert!(number(&line["chord_error"]) <= number(&line["tolerance"]));
+}
+
+#[test]
+fn shapes_are_drawn() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = path(&folder.path().join("p.svg"));
+    let drawn = |name: &str, options: &[&str]| {
+        casteljau(&[&["plot", &model(name), "-o", &out], options].concat()).good();
+        std::fs::read_to_string(&out).unwrap()
+    };
+    let plain = drawn("plane_curve.json", &[]);
+    for options in [&["--comb"][..], &["--frames", "5"], &["--construction", "0.4"], &["--view", "iso"]] {
+        assert_ne!(drawn("plane_curve.json", options), plain, "{options:?}");
+    }
+    drawn("curvature_pair.json", &["--comb", "--no-net"]);
+    let plain = drawn("parabolic_cylinder.json", &[]);
+    for options in [&["--shading", "mean"][..], &["--no-net"], &["--construction", "0.5,0.25"]] {
+        assert_ne!(drawn("parabolic_cylinder.json", options), plain, "{options:?}");
+    }
+    drawn("torus.json", &["--shading", "gaussian"]);
+    drawn("octant.json", &["--construction", "0.2,0.3"]);
+
+    let refused = |name: &str, options: &[&str], words: &[&str]| {
+        casteljau(&[&["plot", &model(name), "-o", &out], options].concat()).bad(2, words);
+    };
+    refused("l.json", &["--comb"], &["--comb", "curves"]);
+    refused("l.json", &["--construction", "0,0"], &["--construction"]);
+    refused("octant.json", &["--frames", "3"], &["--frames", "curves"]);
+    refused("octant.json", &["--construction", "0.5"], &["--construction 0.5", "λ1,λ2"]);
+    refused("plane_curve.json", &["--construction", "1,2"], &["--construction 1,2", "one number"]);
+    refused("parabolic_cylinder.json", &["--isolines", "distances"], &["--isolines"]);
+    casteljau(&["plot", &model("circle.json"), "-o", &out, "--domain"]).bad(1, &["circle.json"]);
+}
+
+#[test]
+fn families_are_not_mixed_in_one_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = path(&folder.path().join("p.svg"));
+    let both = json!({"casteljau": 1, "shapes": [
+        {"kind": "curve", "degree": 1, "control_points": [[0, 0, 0], [1, 0, 0]]},
+        {"kind": "triangle", "degree": 1, "control_points": [[0, 0, 0], [1, 0, 0], [0, 1, 0]]}
+    ]});
+    let (_keep, both) = file("both.json", both.to_string().as_bytes());
+    casteljau(&["plot", &both, "-o", &out]).bad(1, &["both.json", "--shape"]);
+    casteljau(&["plot", &both, "-o", &out, "--shape", "1"]).good();
 }

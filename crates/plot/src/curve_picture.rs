@@ -15,8 +15,10 @@ use crate::{CurveShape, PlotError, View};
 
 /// Pieces that a curve is drawn in.
 const PIECES: usize = 400;
-/// Teeth of a comb.
-const TEETH: usize = 100;
+/// Places of a comb's crest.
+const CREST: usize = 600;
+/// Of these, one in so many has its tooth drawn.
+const TOOTH_STEP: usize = 6;
 /// Most frames along a curve.
 const MOST_FRAMES: usize = 100;
 /// The longest tooth, in units of the size of what is drawn.
@@ -98,7 +100,7 @@ pub fn curve_picture(curves: &[CurveShape], style: &CurveStyle) -> Result<String
     let frames = ["#c62828", "#2e7d32", "#1565c0"].map(|color| pen(color, 1.8, 5.0));
     let point = pen(ACCENT, 1.0, 6.0);
     for comb in &combs {
-        comb.iter().for_each(|tooth| scene.line(tooth, teeth));
+        comb.iter().step_by(TOOTH_STEP).for_each(|tooth| scene.line(tooth, teeth));
         scene.line(&comb.iter().map(|tooth| tooth[1]).collect::<Vec<_>>(), crest);
     }
     for trace in &traces {
@@ -179,9 +181,9 @@ fn combs(curves: &[CurveShape], size: f64) -> Result<Vec<Vec<[DVec3; 2]>>, PlotE
     let mut lengths = Vec::new();
     for CurveShape(curve) in curves {
         let interval = curve.interval();
-        let mut teeth = Vec::with_capacity(TEETH + 1);
-        for i in 0..=TEETH {
-            let jet = curve.try_jet(interval.at(i as f64 / TEETH as f64))?;
+        let mut teeth = Vec::with_capacity(CREST + 1);
+        for i in 0..=CREST {
+            let jet = curve.try_jet(interval.at(i as f64 / CREST as f64))?;
             if let Some(bend) = bend(&jet) {
                 lengths.push(bend.length());
                 teeth.push([jet.point, -bend]);
