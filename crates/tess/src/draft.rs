@@ -75,6 +75,8 @@ pub(crate) struct Draft<'a> {
     pub passed: Vec<bool>,
     /// Cotangent of each triangle's least angle, NaN where it changed since it was computed.
     pub cotangents: Vec<f64>,
+    /// Whether no flip of a triangle's edges helped, while it and its neighbours have not changed since.
+    pub settled: Vec<bool>,
     pub chord_error: f64,
 }
 
@@ -131,6 +133,7 @@ impl<'a> Draft<'a> {
             boundary: mesh.boundary,
             passed: vec![false; mesh.triangles.len()],
             cotangents: vec![f64::NAN; mesh.triangles.len()],
+            settled: vec![false; mesh.triangles.len()],
             topology: Topology::new(mesh.triangles, count),
             chord_error: outline.chord_error,
         };

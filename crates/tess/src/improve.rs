@@ -5,6 +5,7 @@ use casteljau_geom::glam::{DMat2, DVec2, DVec3};
 use crate::TessError;
 use crate::draft::Draft;
 use crate::measure::{bulge, cotangent, cotangent_2d};
+use crate::topology::NONE;
 
 /// Cotangents of the least angles aimed at: 22° inside and 13° at the boundary, above what is promised by a margin.
 const INNER_AIM: f64 = 2.475;
@@ -52,20 +53,28 @@ impl Draft<'_> {
             if self.passed[t] {
                 continue;
             }
-            if self.cotangents[t].is_nan() {
-                self.cotangents[t] = self.cotangent_of(t as u32);
-            }
-            if self.cotangents[t] > limit(self, t as u32) {
+            if self.kept_cotangent(t as u32) > limit(self, t as u32) {
                 found.push(t as u32);
             }
         }
         found
     }
 
+    fn kept_cotangent(&mut self, t: u32) -> f64 {
+        if self.cotangents[t as usize].is_nan() {
+            self.cotangents[t as usize] = self.cotangent_of(t);
+        }
+        self.cotangents[t as usize]
+    }
+
     /// Says that a triangle has other corners, or corners elsewhere, than before.
     fn changed(&mut self, t: u32) {
         self.passed[t as usize] = false;
         self.cotangents[t as usize] = f64::NAN;
+        self.settled[t as usize] = false;
+        for u in self.topology.across[t as usize].into_iter().filter(|&u| u != NONE) {
+            self.settled[u as usize] = false;
+        }
     }
 
     /// Flips edges of changed triangles while that widens the least angle of the two triangles.
@@ -74,30 +83,28 @@ impl Draft<'_> {
         // Every flip widens a least angle, so there is an end; this bounds it.
         let mut flips = 20 * queue.len() + 100;
         while let Some(t) = queue.pop() {
-            for k in 0..3 {
-                if flips > 0 && self.flip_helps(t, k) {
+            if self.settled[t as usize] || flips == 0 {
+                continue;
+            }
+            match (0..3).find(|&k| self.flip_helps(t, k)).and_then(|k| self.topology.flip(t, k)) {
+                Some(changed) => {
                     flips -= 1;
-                    if let Some(changed) = self.topology.flip(t, k) {
-                        changed.iter().for_each(|&t| self.changed(t));
-                        queue.extend(changed);
-                    }
-                    break;
+                    changed.iter().for_each(|&t| self.changed(t));
+                    queue.extend(changed);
                 }
+                None => self.settled[t as usize] = true,
             }
         }
     }
 
-    fn flip_helps(&self, t: u32, k: usize) -> bool {
+    fn flip_helps(&mut self, t: u32, k: usize) -> bool {
         let Some((u, j)) = self.topology.beyond(t, k) else { return false };
         let corners = self.topology.triangles[t as usize];
         let [a, b, c] = [corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]].map(|v| v as usize);
         let d = self.topology.triangles[u as usize][j] as usize;
+        let most = self.kept_cotangent(t).max(self.kept_cotangent(u)) * (1.0 - GAIN);
         let p = |v: usize| self.points[v];
-        let worst = |x: [usize; 3], y: [usize; 3]| {
-            cotangent(p(x[0]), p(x[1]), p(x[2])).max(cotangent(p(y[0]), p(y[1]), p(y[2])))
-        };
-        let (before, after) = (worst([a, b, c], [d, c, b]), worst([a, b, d], [a, d, c]));
-        if after > before * (1.0 - GAIN) {
+        if cotangent(p(a), p(b), p(d)) > most || cotangent(p(a), p(d), p(c)) > most {
             return false;
         }
         if self.request.forbids(a, d) {
@@ -272,7 +279,7 @@ impl Draft<'_> {
     fn hopeless(&self, t: u32) -> bool {
         let k = self.longest_edge(t);
         let corners = self.topology.triangles[t as usize];
-        self.topology.across[t as usize][k] == crate::topology::NONE
+        self.topology.across[t as usize][k] == NONE
             || corners.iter().filter(|v| (**v as usize) < self.boundary).count() > 2
     }
 
@@ -335,6 +342,7 @@ impl Draft<'_> {
         touched.resize(self.topology.triangles.len(), true);
         self.passed.resize(self.topology.triangles.len(), false);
         self.cotangents.resize(self.topology.triangles.len(), f64::NAN);
+        self.settled.resize(self.topology.triangles.len(), false);
         for &t in changed {
             touched[t as usize] = true;
             self.changed(t);
