@@ -16,8 +16,10 @@ use crate::{AsFace, Density, Seams, TessError, TessellationOptions};
 
 /// Least tolerance in units of the largest coordinate: 64 roundings.
 const LEAST_TOLERANCE: f64 = 32.0 * f64::EPSILON;
-/// Samples of a patch: at first, and at most where the mesh turns out large.
+/// Samples of a patch: at first; at least and at most where the mesh turns out to have more than [`FEW`] vertices.
 const PROBES: [usize; 3] = [120, 300, 4000];
+/// Vertices that the first samples suffice for.
+const FEW: f64 = 400.0;
 /// An estimate of the number of vertices is refused beyond this many times the limit.
 const DOUBT: f64 = 2.0;
 /// Most growth of the triangles' size over a distance.
@@ -165,15 +167,15 @@ fn fill<'a>(
     let vertices = surface.domain().vertices();
     match request.tolerance {
         Some(tolerance) => {
-            let mut probes = Probes::new(surface, request.patch, PROBES[1])?;
+            let mut probes = Probes::new(surface, request.patch, PROBES[0])?;
             let mut plane = probes.evened();
             let mut sizes = probes.sizes(plane, tolerance);
             let mut expected = plane.determinant() * probes.expected(&sizes);
             if beyond(expected) {
                 return Err(too_many(expected));
             }
-            let more = (expected / 8.0).min(PROBES[2] as f64) as usize;
-            if more > 2 * PROBES[1] {
+            if expected > FEW {
+                let more = ((expected / 8.0) as usize).clamp(PROBES[1], PROBES[2]);
                 probes = Probes::new(surface, request.patch, more)?;
                 plane = probes.evened();
                 sizes = probes.sizes(plane, tolerance);

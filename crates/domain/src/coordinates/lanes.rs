@@ -1,8 +1,8 @@
 //! Several points at once: arithmetic on a few doubles side by side, and second-order jets over them.
 //!
 //! Plain loops over short arrays, which the compiler turns into vector instructions of whatever width the caller was
-//! dispatched to. No operation mixes lanes and none is a fused multiply-add, so a point's result has the same bits
-//! in every lane, block and instruction set.
+//! dispatched to. No operation mixes lanes, and a multiply-add is fused only where the source says so, so a point's
+//! result has the same bits in every lane, block and instruction set.
 
 // Loops over several arrays at once: an index says it best, and vectorises best.
 #![allow(clippy::needless_range_loop)]
@@ -11,6 +11,9 @@ use std::ops::{Add, Div, Mul, Sub};
 
 /// Points that are computed side by side.
 pub(super) const LANES: usize = 8;
+
+/// 2⁵²: from here on the last bit counts ones.
+const TWO_52: f64 = 4_503_599_627_370_496.0;
 
 /// One double for each of [`LANES`] points.
 #[derive(Clone, Copy)]
@@ -60,6 +63,50 @@ impl Lanes {
     #[inline(always)]
     pub(super) fn max(self, other: Self) -> Self {
         self.zip(other, |a, b| if a > b { a } else { b })
+    }
+
+    /// self·b + c with one rounding.
+    #[inline(always)]
+    pub(super) fn mul_add(self, b: Self, c: Self) -> Self {
+        let mut out = [0.0; LANES];
+        for l in 0..LANES {
+            out[l] = self.0[l].mul_add(b.0[l], c.0[l]);
+        }
+        Self(out)
+    }
+
+    /// m and e with x = 2^e m, ½ ≤ m < 1, for positive normal numbers.
+    #[inline(always)]
+    pub(super) fn mantissa_and_exponent(self) -> (Self, Self) {
+        const MANTISSA: u64 = (1 << 52) - 1;
+        let (mut m, mut e) = ([0.0; LANES], [0.0; LANES]);
+        for l in 0..LANES {
+            let bits = self.0[l].to_bits();
+            m[l] = f64::from_bits((bits & MANTISSA) | 0.5f64.to_bits());
+            // The exponent as the last bits of 2⁵² + exponent.
+            e[l] = f64::from_bits((bits >> 52) | TWO_52.to_bits()) - (TWO_52 + 1022.0);
+        }
+        (Self(m), Self(e))
+    }
+
+    /// self·2^n, n being the integer in the last bits of `shifted`; the result must be normal.
+    #[inline(always)]
+    pub(super) fn times_power_of_two(self, shifted: Self) -> Self {
+        let mut out = [0.0; LANES];
+        for l in 0..LANES {
+            out[l] = f64::from_bits(self.0[l].to_bits().wrapping_add(shifted.0[l].to_bits() << 52));
+        }
+        Self(out)
+    }
+
+    /// Whether bit k of the representation is set.
+    #[inline(always)]
+    pub(super) fn bit(self, k: u32) -> Mask {
+        let mut out = [0; LANES];
+        for l in 0..LANES {
+            out[l] = 0u64.wrapping_sub((self.0[l].to_bits() >> k) & 1);
+        }
+        Mask(out)
     }
 
     #[inline(always)]

@@ -210,7 +210,7 @@ impl Coordinates {
     /// Finite at every finite point of the closed polygon: at a corner and on a side the values are exact to
     /// rounding, and derivatives at a corner are finite numbers without meaning. Outside the polygon the formulas
     /// are continued or not, without promise.
-    /// Error: order above 2; a buffer of the wrong length. Allocates nothing.
+    /// Error: order above 2; a buffer of the wrong length. Allocates one work area a call.
     ///
     /// ```
     /// use casteljau_domain::{Coordinates, DomainError, Polygon, glam::dvec2};

@@ -14,8 +14,10 @@ use std::f64::consts::{PI, TAU};
 
 use num_complex::Complex64;
 
+use super::super::lanes::{LANES, Lanes};
 use super::{
     cell::{Cell, Edge},
+    number::{Complex, Real},
     outline::Outline,
 };
 
@@ -282,60 +284,96 @@ impl Basis {
     /// Calls `sink` once for every real unknown with its function and, up to `ORDER`, the derivatives with respect
     /// to z.
     #[inline(always)]
-    pub(super) fn visit<const ORDER: usize>(&self, site: &Site, mut sink: impl FnMut([Complex64; 3])) {
-        self.visit_polynomial::<ORDER>(site, &mut sink);
+    pub(super) fn visit<const ORDER: usize>(&self, site: &Site, mut sink: impl FnMut([Complex<f64>; 3])) {
+        let z = Complex { re: site.z.re, im: site.z.im };
+        let offset = |corner: usize, at: Complex64| {
+            let offset = site.offset(corner, at);
+            Complex { re: offset.re, im: offset.im }
+        };
+        self.visit_all::<f64, ORDER>(z, &offset, &mut sink);
+    }
+
+    /// [`visit`](Self::visit) at several sites at once.
+    #[inline(always)]
+    pub(super) fn visit_lanes<const ORDER: usize>(
+        &self,
+        sites: &[Site; LANES],
+        mut sink: impl FnMut([Complex<Lanes>; 3]),
+    ) {
+        let z = lanes(|l| sites[l].z);
+        let offset = |corner: usize, at: Complex64| lanes(|l| sites[l].offset(corner, at));
+        self.visit_all::<Lanes, ORDER>(z, &offset, &mut sink);
+    }
+
+    /// `offset` gives z less a corner.
+    #[inline(always)]
+    fn visit_all<T: Real, const ORDER: usize>(
+        &self,
+        z: Complex<T>,
+        offset: &impl Fn(usize, Complex64) -> Complex<T>,
+        sink: &mut impl FnMut([Complex<T>; 3]),
+    ) {
+        self.visit_polynomial::<T, ORDER>(z, sink);
         for series in &self.series {
-            series.visit::<ORDER>(site, self.radius, &mut sink);
+            series.visit::<T, ORDER>(offset(series.corner, series.at), self.radius, sink);
         }
         for series in &self.crowded {
-            series.visit::<ORDER>(site, &mut sink);
+            series.visit::<T, ORDER>(offset(series.corner, series.at), sink);
         }
+        let zero = Complex::of(0.0, 0.0);
         for pole in &self.poles {
-            let inverse = (site.z - pole.at).inv();
-            let g = inverse * pole.strength;
-            let mut out = [g, Complex64::ZERO, Complex64::ZERO];
+            let inverse = (z - Complex::of(pole.at.re, pole.at.im)).inv();
+            let g = inverse.scale(T::of(pole.strength));
+            let mut out = [g, zero, zero];
             if ORDER > 0 {
-                out[1] = -g * inverse;
+                out[1] = zero - g * inverse;
             }
             if ORDER > 1 {
-                out[2] = out[1] * inverse * -2.0;
+                out[2] = (out[1] * inverse).scale(T::of(-2.0));
             }
-            pair(out, &mut sink);
+            pair(out, sink);
         }
     }
 
     #[inline(always)]
-    fn visit_polynomial<const ORDER: usize>(&self, site: &Site, sink: &mut impl FnMut([Complex64; 3])) {
+    fn visit_polynomial<T: Real, const ORDER: usize>(
+        &self,
+        z: Complex<T>,
+        sink: &mut impl FnMut([Complex<T>; 3]),
+    ) {
         let per_radius = 1.0 / self.radius;
-        let x = (site.z - self.centre) * per_radius;
-        let zero = Complex64::ZERO;
-        sink([Complex64::ONE, zero, zero]);
+        let x = (z - Complex::of(self.centre.re, self.centre.im)).scale(T::of(per_radius));
+        let (zero, one) = (Complex::of(0.0, 0.0), Complex::of(1.0, 0.0));
+        sink([one, zero, zero]);
         if self.imaginary_constant {
-            sink([Complex64::I, zero, zero]);
+            sink([one.times_i(), zero, zero]);
         }
         // p[0], p[1], p[2] are x^k, x^(k−1), x^(k−2).
-        let mut p = [Complex64::ONE, zero, zero];
+        let mut p = [one, zero, zero];
         for k in 1..=self.degree {
             p = [p[0] * x, p[0], p[1]];
             let k = k as f64;
             let mut out = [p[0], zero, zero];
             if ORDER > 0 {
-                out[1] = p[1] * (k * per_radius);
+                out[1] = p[1].scale(T::of(k * per_radius));
             }
             if ORDER > 1 {
-                out[2] = p[2] * (k * (k - 1.0) * per_radius * per_radius);
+                out[2] = p[2].scale(T::of(k * (k - 1.0) * per_radius * per_radius));
             }
             pair(out, sink);
         }
     }
 }
 
-/// e^z. One exponential, one sine and cosine.
+/// One complex number a lane.
 #[inline(always)]
-fn exp(z: Complex64) -> Complex64 {
-    let (sin, cos) = z.im.sin_cos();
-    let r = z.re.exp();
-    Complex64::new(r * cos, r * sin)
+fn lanes(at: impl Fn(usize) -> Complex64) -> Complex<Lanes> {
+    let (mut re, mut im) = (Lanes::ZERO, Lanes::ZERO);
+    for l in 0..LANES {
+        let z = at(l);
+        (re.0[l], im.0[l]) = (z.re, z.im);
+    }
+    Complex { re, im }
 }
 
 /// Singular corners of a cell that have another corner near, measured by the size of the cell.
@@ -346,9 +384,9 @@ pub(super) fn crowded_corners(outline: &Outline, cell: &Cell) -> usize {
 
 /// One complex unknown is two real ones: the function, and i times it.
 #[inline(always)]
-fn pair(g: [Complex64; 3], sink: &mut impl FnMut([Complex64; 3])) {
+fn pair<T: Real>(g: [Complex<T>; 3], sink: &mut impl FnMut([Complex<T>; 3])) {
     sink(g);
-    sink(g.map(|x| Complex64::new(-x.im, x.re)));
+    sink(g.map(Complex::times_i));
 }
 
 /// A direction in the wedge from `from` through `wedge` whose ray from `at` misses the cell, the nearest to the
@@ -371,30 +409,33 @@ impl CornerSeries {
     }
 
     #[inline(always)]
-    fn visit<const ORDER: usize>(&self, site: &Site, radius: f64, sink: &mut impl FnMut([Complex64; 3])) {
-        let offset = site.offset(self.corner, self.at);
-        let mut theta = (offset * self.rotation).arg();
-        if theta < 0.0 {
-            theta += TAU;
-        }
-        let r2 = offset.norm_sqr().max(f64::MIN_POSITIVE);
-        let log = Complex64::new(0.5 * (r2 / (radius * radius)).ln(), theta + self.turn);
-        let w = exp(log * self.alpha);
-        let inverse = if ORDER > 0 { offset.inv() } else { Complex64::ZERO };
-        let mut power = Complex64::ONE;
+    fn visit<T: Real, const ORDER: usize>(
+        &self,
+        offset: Complex<T>,
+        radius: f64,
+        sink: &mut impl FnMut([Complex<T>; 3]),
+    ) {
+        let turned = offset * Complex::of(self.rotation.re, self.rotation.im);
+        let theta = turned.im.atan2(turned.re);
+        let theta = theta.select_less(0.0, theta + T::of(TAU), theta);
+        let r2 = offset.norm_sqr() / T::of(radius * radius);
+        let log = Complex { re: T::of(0.5) * r2.ln(), im: theta + T::of(self.turn) };
+        let w = log.scale(T::of(self.alpha)).exp();
+        let zero = Complex::of(0.0, 0.0);
+        let inverse = if ORDER > 0 { offset.inv() } else { zero };
+        let mut power = Complex::of(1.0, 0.0);
         for j in 1..=self.terms {
-            power *= w;
+            power = power * w;
             let a = self.alpha * j as f64;
             if near_one(a) {
-                sink(difference_quotient::<ORDER>(log, a, inverse));
+                sink(difference_quotient::<T, ORDER>(log, a, inverse));
             } else if self.takes(j) {
-                let g = Complex64::new(power.im, -power.re);
-                let mut out = [g, Complex64::ZERO, Complex64::ZERO];
+                let mut out = [power.over_i(), zero, zero];
                 if ORDER > 0 {
-                    out[1] = g * inverse * a;
+                    out[1] = (out[0] * inverse).scale(T::of(a));
                 }
                 if ORDER > 1 {
-                    out[2] = out[1] * inverse * (a - 1.0);
+                    out[2] = (out[1] * inverse).scale(T::of(a - 1.0));
                 }
                 sink(out);
             }
@@ -409,55 +450,57 @@ fn near_one(a: f64) -> bool {
 
 /// −i·(z^a − z)/(a − 1) by L = log z: it tends to −i·z log z, the function of a change of slope on a straight side.
 #[inline(always)]
-fn difference_quotient<const ORDER: usize>(log: Complex64, a: f64, inverse: Complex64) -> [Complex64; 3] {
+fn difference_quotient<T: Real, const ORDER: usize>(
+    log: Complex<T>,
+    a: f64,
+    inverse: Complex<T>,
+) -> [Complex<T>; 3] {
     let d = a - 1.0;
-    let x = log * d;
+    let x = log.scale(T::of(d));
+    let one = Complex::of(1.0, 0.0);
     // (eˣ − 1)/x; the series is exact to rounding below 1e-3, and above it at most three digits cancel.
-    let quotient = if x.norm_sqr() < 1e-2 {
-        let mut term = Complex64::ONE;
-        let mut sum = Complex64::ONE;
-        for k in 2..=10 {
-            term *= x / f64::from(k);
-            sum += term;
-        }
-        sum
-    } else {
-        (exp(x) - 1.0) / x
-    };
-    let z = exp(log);
+    let mut term = one;
+    let mut series = one;
+    for k in 2..=10 {
+        term = (term * x).scale(T::of(1.0 / f64::from(k)));
+        series = series + term;
+    }
+    let quotient = Complex::select_less(x.norm_sqr(), 1e-2, series, (x.exp() - one) * x.inv());
+    let z = log.exp();
     let f = z * quotient * log;
-    let mut out = [f, Complex64::ZERO, Complex64::ZERO];
+    let zero = Complex::of(0.0, 0.0);
+    let mut out = [f, zero, zero];
     if ORDER > 0 {
-        out[1] = (f * a + z) * inverse;
+        out[1] = (f.scale(T::of(a)) + z) * inverse;
     }
     if ORDER > 1 {
-        out[2] = (f * d + z) * inverse * inverse * a;
+        out[2] = ((f.scale(T::of(d)) + z) * inverse * inverse).scale(T::of(a));
     }
-    out.map(|x| Complex64::new(x.im, -x.re))
+    out.map(Complex::over_i)
 }
 
 impl CrowdedSeries {
     #[inline(always)]
-    fn visit<const ORDER: usize>(&self, site: &Site, sink: &mut impl FnMut([Complex64; 3])) {
-        let near = site.offset(self.corner, self.at);
-        let far = near + self.beyond;
+    fn visit<T: Real, const ORDER: usize>(&self, near: Complex<T>, sink: &mut impl FnMut([Complex<T>; 3])) {
+        let far = near + Complex::of(self.beyond.re, self.beyond.im);
         let inverse = [near.inv(), far.inv()];
         let ratio = near * inverse[1];
-        let log = Complex64::new(0.5 * ratio.norm_sqr().max(f64::MIN_POSITIVE).ln(), ratio.arg());
+        let log = Complex { re: T::of(0.5) * ratio.norm_sqr().ln(), im: ratio.im.atan2(ratio.re) };
         // The logarithmic derivative of (z − c)/(z − e), and its derivative.
         let q = inverse[0] - inverse[1];
         let q1 = inverse[1] * inverse[1] - inverse[0] * inverse[0];
-        let w = exp(log * self.alpha);
-        let mut power = Complex64::ONE;
+        let w = log.scale(T::of(self.alpha)).exp();
+        let zero = Complex::of(0.0, 0.0);
+        let mut power = Complex::of(1.0, 0.0);
         for j in 1..=self.terms {
-            power *= w;
+            power = power * w;
             let a = self.alpha * j as f64;
-            let mut out = [power, Complex64::ZERO, Complex64::ZERO];
+            let mut out = [power, zero, zero];
             if ORDER > 0 {
-                out[1] = power * q * a;
+                out[1] = (power * q).scale(T::of(a));
             }
             if ORDER > 1 {
-                out[2] = power * (q * q * (a * a) + q1 * a);
+                out[2] = power * ((q * q).scale(T::of(a * a)) + q1.scale(T::of(a)));
             }
             pair(out, sink);
         }

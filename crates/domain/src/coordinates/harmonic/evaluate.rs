@@ -3,40 +3,52 @@
 use num_complex::Complex64;
 use pulp::{Arch, Simd, WithSimd};
 
+use super::super::lanes::{LANES, Lanes};
 use super::{
     basis::{Basis, Site},
     cell::Cell,
 };
 
-/// Coordinates that are accumulated together.
-const LANES: usize = 8;
+/// Rows of coefficients are padded to a multiple of this, the most coordinates that are accumulated together.
+const PADDING: usize = 4;
 
 /// A cell with its functions and their coefficients.
 #[derive(Clone, Debug)]
 pub(super) struct Part {
     cell: Cell,
     basis: Basis,
-    /// Row-major, one row an unknown, rows padded with zeros to a multiple of [`LANES`].
+    /// Row-major, one row an unknown, rows padded with zeros to a multiple of [`PADDING`].
     coefficients: Vec<f64>,
     stride: usize,
 }
 
-/// The functions at one point, one array each for Re φ, Re φ′, Im φ′, Re φ″, Im φ″.
+/// The functions at [`LANES`] points, and what they sum up to.
 pub(super) struct Scratch {
-    rows: [Vec<f64>; 5],
+    /// Re φ, Re φ′, Im φ′, Re φ″, Im φ″.
+    functions: [Vec<Lanes>; 5],
+    /// Re F, Re F′, Im F′, Re F″, Im F″, rows of n.
+    pub(super) sums: Vec<Lanes>,
 }
 
 impl Scratch {
-    pub(super) fn new(parts: &[Part]) -> Self {
+    /// Room for all `parts`, `n` coordinates and derivatives up to `order`.
+    pub(super) fn new(parts: &[Part], n: usize, order: usize) -> Self {
         let longest = parts.iter().map(|p| p.basis.len()).max().unwrap_or(0);
-        Self { rows: std::array::from_fn(|_| vec![0.0; longest]) }
+        let rows = solved_rows(order);
+        let room = |row: usize| vec![Lanes::ZERO; if row < rows { longest } else { 0 }];
+        Self { functions: std::array::from_fn(room), sums: vec![Lanes::ZERO; rows * n] }
     }
+}
+
+/// Rows that are summed up: Re F; Re F′, Im F′; Re F″, Im F″.
+pub(super) fn solved_rows(order: usize) -> usize {
+    2 * order.min(2) + 1
 }
 
 impl Part {
     /// `coefficients` holds a row of n values for every unknown.
     pub(super) fn new(cell: Cell, basis: Basis, coefficients: &[f64], n: usize) -> Self {
-        let stride = n.next_multiple_of(LANES);
+        let stride = n.next_multiple_of(PADDING);
         let mut padded = vec![0.0; basis.len() * stride];
         for (to, from) in padded.chunks_exact_mut(stride).zip(coefficients.chunks_exact(n)) {
             to[..n].copy_from_slice(from);
@@ -52,58 +64,59 @@ impl Part {
         &self.basis
     }
 
-    /// Re F, and for orders 1 and 2 Re F′, Im F′, Re F″, Im F″, of all n functions: `out` holds 1, 3 or 5 rows of n.
+    /// Re F, and for orders 1 and 2 Re F′, Im F′, Re F″, Im F″, of all functions at several sites, into the sums of
+    /// `scratch`.
+    ///
+    /// So many coordinates are accumulated together that the rows of their sums stay in vector registers.
     #[inline(always)]
-    pub(super) fn evaluate(&self, site: &Site, order: usize, scratch: &mut Scratch, out: &mut [f64]) {
+    pub(super) fn evaluate(&self, sites: &[Site; LANES], order: usize, scratch: &mut Scratch) {
         match order {
-            0 => self.rows::<0, 1>(site, scratch, out),
-            1 => self.rows::<1, 3>(site, scratch, out),
-            _ => self.rows::<2, 5>(site, scratch, out),
+            0 => self.rows::<0, 1, 4>(sites, scratch),
+            1 => self.rows::<1, 3, 4>(sites, scratch),
+            _ => self.rows::<2, 5, 2>(sites, scratch),
         }
     }
 
     #[inline(always)]
-    fn rows<const ORDER: usize, const ROWS: usize>(
+    fn rows<const ORDER: usize, const ROWS: usize, const TILE: usize>(
         &self,
-        site: &Site,
+        sites: &[Site; LANES],
         scratch: &mut Scratch,
-        out: &mut [f64],
     ) {
+        let Scratch { functions, sums } = scratch;
         let count = self.basis.len();
         {
-            let [v, d1r, d1i, d2r, d2i] = &mut scratch.rows;
-            let (v, d1r, d1i) = (&mut v[..count], &mut d1r[..count], &mut d1i[..count]);
-            let (d2r, d2i) = (&mut d2r[..count], &mut d2i[..count]);
+            let [v, d1r, d1i, d2r, d2i] = functions.each_mut().map(|row| {
+                let held = row.len().min(count);
+                &mut row[..held]
+            });
             let mut k = 0;
-            self.basis.visit::<ORDER>(site, |g| {
+            self.basis.visit_lanes::<ORDER>(sites, |g| {
                 v[k] = g[0].re;
                 if ORDER > 0 {
-                    d1r[k] = g[1].re;
-                    d1i[k] = g[1].im;
+                    (d1r[k], d1i[k]) = (g[1].re, g[1].im);
                 }
                 if ORDER > 1 {
-                    d2r[k] = g[2].re;
-                    d2i[k] = g[2].im;
+                    (d2r[k], d2i[k]) = (g[2].re, g[2].im);
                 }
                 k += 1;
             });
         }
-        let n = out.len() / ROWS;
-        for first in (0..n).step_by(LANES) {
-            let mut sums = [[0.0; LANES]; ROWS];
-            let columns = self.coefficients.chunks_exact(self.stride);
-            for (k, row) in columns.enumerate() {
-                let Some(c) = row[first..].first_chunk::<LANES>() else { continue };
-                for (sum, values) in sums.iter_mut().zip(&scratch.rows) {
-                    let x = values[k];
-                    for (s, &c) in sum.iter_mut().zip(c) {
-                        *s = x.mul_add(c, *s);
+        let functions: [&[Lanes]; ROWS] = std::array::from_fn(|r| &functions[r][..count]);
+        let n = sums.len() / ROWS;
+        for first in (0..n).step_by(TILE) {
+            let mut tile = [[Lanes::ZERO; TILE]; ROWS];
+            for (k, row) in self.coefficients.chunks_exact(self.stride).enumerate() {
+                let Some(c) = row[first..].first_chunk::<TILE>() else { continue };
+                for (sums, functions) in tile.iter_mut().zip(&functions) {
+                    for (sum, &c) in sums.iter_mut().zip(c) {
+                        *sum = functions[k].mul_add(Lanes::splat(c), *sum);
                     }
                 }
             }
-            let width = LANES.min(n - first);
-            for (r, sum) in sums.iter().enumerate() {
-                out[r * n + first..r * n + first + width].copy_from_slice(&sum[..width]);
+            let width = TILE.min(n - first);
+            for (r, tile) in tile.iter().enumerate() {
+                sums[r * n + first..r * n + first + width].copy_from_slice(&tile[..width]);
             }
         }
     }
@@ -120,7 +133,7 @@ impl Part {
         self.basis.visit::<0>(&Site::free(z), |g| {
             if let Some(row) = rows.next() {
                 for (o, &c) in out.iter_mut().zip(row) {
-                    *o += g[0] * c;
+                    *o += Complex64::new(g[0].re, g[0].im) * c;
                 }
             }
         });
@@ -152,10 +165,19 @@ impl WithSimd for Values<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let mut scratch = Scratch::new(std::slice::from_ref(self.part));
         let n = self.out.len() / self.sites.len().max(1);
-        for (site, out) in self.sites.iter().zip(self.out.chunks_exact_mut(n.max(1))) {
-            self.part.evaluate(site, 0, &mut scratch, out);
+        let mut scratch = Scratch::new(std::slice::from_ref(self.part), n, 0);
+        for (sites, out) in self.sites.chunks(LANES).zip(self.out.chunks_mut((LANES * n).max(1))) {
+            self.part.evaluate(&block(sites), 0, &mut scratch);
+            for (lane, out) in out.chunks_exact_mut(n.max(1)).enumerate() {
+                out.iter_mut().zip(&scratch.sums).for_each(|(out, sum)| *out = sum.0[lane]);
+            }
         }
     }
+}
+
+/// Up to [`LANES`] things, the last one repeated.
+#[inline(always)]
+pub(super) fn block<T: Copy>(things: &[T]) -> [T; LANES] {
+    std::array::from_fn(|l| things[l.min(things.len() - 1)])
 }

@@ -5,6 +5,7 @@ use super::{
     cell::{Cell, EdgePoint},
     cut::{best_chord, gap_chord, middle_chord, neck_chord},
     evaluate::Part,
+    number::Complex,
     outline::Outline,
     reproduce::Reproduction,
     sample::{Interface, SideSample, check_chord, check_sides, fit_chord, fit_sides, interfaces},
@@ -187,7 +188,7 @@ fn solve(outline: &Outline, patches: &[Patch], budget: f64) -> Option<(Vec<Part>
         let points = fit_chord(&interface, &[bases[a].poles(), bases[b].poles()], degree);
         system.add_rows(&[a, b], 2 * points.len(), |row, values| {
             let site = Site::free(points[row / 2]);
-            let part = |z: num_complex::Complex64| if row % 2 == 0 { z.re } else { z.im };
+            let part = |z: Complex<f64>| if row % 2 == 0 { z.re } else { z.im };
             let mut k = 0;
             bases[a].visit::<0>(&site, |g| {
                 values[k] = part(g[0]);

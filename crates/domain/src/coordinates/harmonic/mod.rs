@@ -23,8 +23,10 @@
 mod basis;
 mod cell;
 mod cut;
+mod elementary;
 mod evaluate;
 mod fit;
+mod number;
 mod outline;
 mod reproduce;
 mod sample;
@@ -34,11 +36,11 @@ use casteljau_geom::glam::DVec2;
 use num_complex::Complex64;
 use pulp::{Arch, Simd, WithSimd};
 
-use super::rows;
+use super::{lanes::LANES, rows};
 use crate::{DomainError, Polygon};
 use basis::Site;
 use cell::Edge;
-use evaluate::{Part, Scratch};
+use evaluate::{Part, Scratch, block, solved_rows};
 use outline::{Frame, Outline};
 use reproduce::Reproduction;
 use sample::side_site;
@@ -153,13 +155,38 @@ impl HarmonicCoordinates {
         self.parts.iter().position(owns).unwrap_or_else(|| self.part_of(site.z))
     }
 
+    /// Rows of λ and its derivatives at sites, each of which lies in the part of that number, into the
+    /// rows of each in `out`.
     #[inline(always)]
-    fn evaluate_site(&self, part: &Part, site: &Site, order: usize, scratch: &mut Scratch, out: &mut [f64]) {
+    fn evaluate_block(
+        &self,
+        parts: &[usize],
+        sites: &[Site; LANES],
+        order: usize,
+        scratch: &mut Scratch,
+        out: &mut [f64],
+    ) {
         let n = self.outline.len();
-        let solved = [1, 3, 5][order.min(2)];
-        part.evaluate(site, order, scratch, &mut out[..solved * n]);
-        let moments = [[1.0, site.z.re, site.z.im], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0], [0.0; 3], [0.0; 3]];
-        for (row, moments) in out.chunks_exact_mut(n).zip(moments).take(solved) {
+        for (first, &part) in parts.iter().enumerate() {
+            if parts[..first].contains(&part) {
+                continue;
+            }
+            self.parts[part].evaluate(sites, order, scratch);
+            for (lane, out) in out.chunks_exact_mut(rows(order) * n).enumerate() {
+                if parts[lane] == part {
+                    out.iter_mut().zip(&scratch.sums).for_each(|(out, sum)| *out = sum.0[lane]);
+                    self.finish(sites[lane].z, order, out);
+                }
+            }
+        }
+    }
+
+    /// From Re F, Re F′, Im F′, Re F″, Im F″ at z to the rows of λ.
+    #[inline(always)]
+    fn finish(&self, z: Complex64, order: usize, out: &mut [f64]) {
+        let n = self.outline.len();
+        let moments = [[1.0, z.re, z.im], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0], [0.0; 3], [0.0; 3]];
+        for (row, moments) in out.chunks_exact_mut(n).zip(moments).take(solved_rows(order)) {
             self.reproduction.correct(row, moments);
         }
         // λ = Re F, so λ_x = Re F′, λ_y = −Im F′, λ_xx = Re F″, λ_xy = −Im F″, λ_yy = −λ_xx.
@@ -205,11 +232,12 @@ impl WithSimd for Batch<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { coordinates, points, order, out } = self;
-        let mut scratch = Scratch::new(&coordinates.parts);
-        for (&p, out) in points.iter().zip(out.chunks_exact_mut(rows(order) * coordinates.outline.len())) {
-            let z = coordinates.frame.to_solver(p);
-            let part = &coordinates.parts[coordinates.part_of(z)];
-            coordinates.evaluate_site(part, &Site::free(z), order, &mut scratch, out);
+        let stride = rows(order) * coordinates.outline.len();
+        let mut scratch = Scratch::new(&coordinates.parts, coordinates.outline.len(), order);
+        for (points, out) in points.chunks(LANES).zip(out.chunks_mut(LANES * stride)) {
+            let sites = block(points).map(|p| Site::free(coordinates.frame.to_solver(p)));
+            let parts = sites.map(|site| coordinates.part_of(site.z));
+            coordinates.evaluate_block(&parts[..points.len()], &sites, order, &mut scratch, out);
         }
     }
 }
@@ -230,12 +258,17 @@ impl WithSimd for SideBatch<'_> {
     fn with_simd<S: Simd>(self, _: S) {
         let Self { coordinates, polygon, places, order, out } = self;
         let n = coordinates.outline.len();
-        let mut scratch = Scratch::new(&coordinates.parts);
-        for (&(side, t), out) in places.iter().zip(out.chunks_exact_mut(rows(order) * n)) {
-            let site = side_site(&coordinates.outline, (side + n - 1) % n, t);
-            let part = &coordinates.parts[coordinates.part_of_side((side + n - 1) % n, t, &site)];
-            coordinates.evaluate_site(part, &site, order, &mut scratch, out);
-            impose_linearity(polygon, side, order, out);
+        let stride = rows(order) * n;
+        let mut scratch = Scratch::new(&coordinates.parts, n, order);
+        for (places, out) in places.chunks(LANES).zip(out.chunks_mut(LANES * stride)) {
+            let all = block(places).map(|(side, t)| ((side + n - 1) % n, t));
+            let sites = all.map(|(k, t)| side_site(&coordinates.outline, k, t));
+            let parts: [usize; LANES] =
+                std::array::from_fn(|l| coordinates.part_of_side(all[l].0, all[l].1, &sites[l]));
+            coordinates.evaluate_block(&parts[..places.len()], &sites, order, &mut scratch, out);
+            for (&(side, _), out) in places.iter().zip(out.chunks_exact_mut(stride)) {
+                impose_linearity(polygon, side, order, out);
+            }
         }
     }
 }
