@@ -219,6 +219,51 @@ fn check_tells_how_shapes_meet() {
     near(&[number(&lines[0]["g1"])], &[90.0], 1e-12);
 }
 
+/// The bicubic net of z = x²/5 − xy/10 + y²/10 over [a, a+1] × [0, 1], i with x, j with y.
+fn bicubic(a: f64) -> Vec<Vec<[f64; 3]>> {
+    let arguments = |from: f64, i: usize| [0, 1, 2].map(|k| if k < i { from + 1.0 } else { from });
+    let mean = |x: [f64; 3]| (x[0] + x[1] + x[2]) / 3.0;
+    let square = |x: [f64; 3]| (x[0] * x[1] + x[1] * x[2] + x[2] * x[0]) / 3.0;
+    let point = |i: usize, j: usize| {
+        let (x, y) = (arguments(a, i), arguments(0.0, j));
+        [mean(x), mean(y), square(x) / 5.0 - mean(x) * mean(y) / 10.0 + square(y) / 10.0]
+    };
+    (0..4).map(|i| (0..4).map(|j| point(i, j)).collect()).collect()
+}
+
+#[test]
+fn check_compares_gb_sides_with_other_surfaces() {
+    let net = bicubic(1.0);
+    let row = |at: &dyn Fn(usize) -> [f64; 3]| (0..4).map(at).collect::<Vec<_>>();
+    let sides = [
+        [row(&|k| net[k][0]), row(&|k| net[k][1])],
+        [row(&|k| net[3][k]), row(&|k| net[2][k])],
+        [row(&|k| net[3 - k][3]), row(&|k| net[3 - k][2])],
+        [row(&|k| net[0][3 - k]), row(&|k| net[1][3 - k])],
+    ];
+    let ribbons: Vec<Value> = sides.iter().map(|rows| json!({"control_points": rows})).collect();
+    let gb = json!({"kind": "gb_patch", "layout": "regular", "ribbons": ribbons});
+    let run = |neighbour: &[Vec<[f64; 3]>]| {
+        let patch = json!({"kind": "patch", "degree": [3, 3], "control_points": neighbour});
+        let model = json!({"casteljau": 1, "shapes": [patch, gb]}).to_string();
+        let lines = with_input(&["check", "-", "--json"], model.as_bytes()).good().json();
+        let joins: Vec<Value> = lines.into_iter().filter(|line| line.get("shapes").is_some()).collect();
+        assert_eq!(joins.len(), 1);
+        joins[0].clone()
+    };
+    let smooth = run(&bicubic(0.0));
+    // The patch's edge at the end of u meets the last side.
+    assert_eq!((&smooth["shapes"], &smooth["sides"]), (&json!([1, 0]), &json!([3, 1])));
+    assert_eq!((&smooth["opposed"], &smooth["promised"]), (&json!(true), &json!("G1")));
+    assert!(number(&smooth["g0"]) < 1e-14 && number(&smooth["g1"]) < 1e-6, "{smooth}");
+    let mut creased = bicubic(0.0);
+    creased[2].iter_mut().for_each(|point| point[2] += 0.1);
+    let crease = run(&creased);
+    assert_eq!((&crease["promised"], &crease["measured"]), (&json!("G0"), &json!("G0")));
+    // The edge keeps its tangents, the cross derivative (1, 0, z) loses 0.3 of its slope.
+    assert!(number(&crease["g1"]) > 10.0);
+}
+
 #[test]
 fn convert_changes_basis_degree_and_format() {
     let folder = tempfile::tempdir().unwrap();

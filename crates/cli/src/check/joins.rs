@@ -1,12 +1,14 @@
 //! Where shapes of a file meet: sides with common ends and, parameter by parameter, common points.
 
 use casteljau::gb::{ConcavePatch, GbError, Location, Ribbon};
-use casteljau::geom::{SurfaceJet, angle_degrees};
+use casteljau::geom::{BoundingBox, SurfaceJet, angle_degrees};
 use casteljau::glam::DVec3;
+use casteljau::io::Geometry;
 use casteljau::shape::Curve;
 use serde::Serialize;
 
-use super::{Figures, Tolerances, order_name, row};
+use super::plain::{Edge, STEPS, edges};
+use super::{Figures, Tolerances, order_name, pairs, row};
 use crate::arguments::Check;
 use crate::failure::Failure;
 use crate::output::Lines;
@@ -22,8 +24,9 @@ const CREASE: f64 = 1e-2;
 /// Ribbons whose normal curvatures differ by more, relative, are not meant to agree in them.
 const BEND: f64 = 1e-3;
 
-/// Two sides that meet. The promise is what the two ribbons prescribe, as far as both patches follow them: a common
-/// curve G0, common tangent planes G1, common curvatures across G2. `opposed`: the sides run opposite ways, as they do
+/// Two sides that meet, one of them of a GB patch. The promise is what the two ribbons, or a ribbon and the other surface,
+/// prescribe, as far as the patches follow them: a common curve G0, common tangent planes G1, common curvatures across
+/// G2. `opposed`: the sides run opposite ways, as they do
 /// when both shapes have the same outside.
 #[derive(Serialize)]
 pub struct JoinLine {
@@ -37,123 +40,116 @@ pub struct JoinLine {
     pub ok: bool,
 }
 
-/// A side of a patch, with its number.
+/// A side of a shape.
 struct Side<'a> {
-    patch: usize,
+    shape: usize,
     side: usize,
-    of: &'a ConcavePatch,
-    ribbon: &'a Ribbon,
-    curve: Curve,
+    of: Of<'a>,
+    /// Points at equal steps of the parameter, ends included.
+    points: Vec<DVec3>,
 }
 
+enum Of<'a> {
+    Ribbon { patch: &'a ConcavePatch, ribbon: &'a Ribbon, curve: Curve },
+    Edge(Edge<'a>),
+}
+
+/// Where GB patches meet each other, and where they meet other surfaces. Shapes come with their numbers.
 pub fn measure(
-    patches: &[&ConcavePatch],
-    numbers: &[usize],
+    patches: &[(usize, &ConcavePatch)],
+    others: &[(usize, &Geometry)],
     options: &Check,
 ) -> Result<Vec<JoinLine>, Failure> {
-    let boxes = patches.iter().map(|patch| patch.bounding_box());
-    let size = boxes.reduce(|a, b| a.union(&b)).map_or(0.0, |all| all.diagonal());
     let mut sides = Vec::new();
-    for (patch, of) in patches.iter().copied().enumerate() {
-        for (side, ribbon) in of.ribbons().iter().enumerate() {
-            sides.push(Side { patch, side, of, ribbon, curve: of.side_curve(side)? });
+    for &(shape, patch) in patches {
+        for (side, ribbon) in patch.ribbons().iter().enumerate() {
+            let curve = patch.side_curve(side)?;
+            let points = (0..=STEPS).map(|k| curve.point(k as f64 / STEPS as f64)).collect();
+            sides.push(Side { shape, side, of: Of::Ribbon { patch, ribbon, curve }, points });
         }
     }
+    let ribbons = sides.len();
+    for &(shape, geometry) in others.iter().filter(|_| ribbons > 0) {
+        for edge in geometry.as_surface().map(edges).transpose()?.unwrap_or_default() {
+            let (side, points) = (edge.side, edge.points.clone());
+            sides.push(Side { shape, side, of: Of::Edge(edge), points });
+        }
+    }
+    let bounds = BoundingBox::from_points(sides.iter().flat_map(|side| side.points.iter().copied()));
+    let boxes = patches.iter().map(|(_, patch)| patch.bounding_box());
+    let size = bounds.into_iter().chain(boxes).reduce(|a, b| a.union(&b)).map_or(0.0, |all| all.diagonal());
     let mut joins = Vec::new();
-    for (a, b) in pairs(&sides, ENDS * size) {
+    for (a, b) in pairs(sides.iter().map(|side| &side.points[..]), ENDS * size) {
+        // The other surfaces among themselves are somebody else's.
+        if a >= ribbons {
+            continue;
+        }
         let (a, b) = (&sides[a], &sides[b]);
         if let Some(opposed) = shared(a, b, ENDS * size) {
-            joins.push(join(a, b, opposed, size, numbers, options)?);
+            joins.extend(join(a, b, opposed, size, options)?);
         }
     }
     Ok(joins)
 }
 
-/// Pairs of sides whose middles of the ends are near each other, found by sorting; in order of their numbers.
-fn pairs(sides: &[Side<'_>], near: f64) -> Vec<(usize, usize)> {
-    let middle = |i: usize| sides[i].curve.start().midpoint(sides[i].curve.end());
-    let mut order: Vec<(f64, usize)> = (0..sides.len()).map(|i| (middle(i).x, i)).collect();
-    order.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut found = Vec::new();
-    for (place, &(x, i)) in order.iter().enumerate() {
-        for &(_, j) in order[place + 1..].iter().take_while(|(other, _)| other - x <= near) {
-            if middle(i).distance(middle(j)) <= near {
-                found.push((i.min(j), i.max(j)));
-            }
-        }
-    }
-    found.sort_unstable();
-    found
-}
-
 /// Whether two sides follow one curve, and if so whether they run opposite ways.
 fn shared(a: &Side<'_>, b: &Side<'_>, near: f64) -> Option<bool> {
-    const SAMPLES: usize = 16;
-    let ends = [a.curve.start(), a.curve.end()];
-    let meets = |p: DVec3, q: DVec3| p.distance(ends[0]) <= near && q.distance(ends[1]) <= near;
-    let (start, end) = (b.curve.start(), b.curve.end());
-    let hull = a.curve.bounding_box().diagonal();
+    let hull = BoundingBox::from_points(a.points.iter().copied())?.diagonal();
     let follows = |opposed: bool| {
-        (1..SAMPLES).all(|i| {
-            let t = i as f64 / SAMPLES as f64;
-            let other = b.curve.point(if opposed { 1.0 - t } else { t });
-            a.curve.point(t).distance(other) <= APART * hull
+        a.points.iter().enumerate().all(|(k, p)| {
+            let other = b.points[if opposed { STEPS - k } else { k }];
+            p.distance(other) <= if k == 0 || k == STEPS { near } else { APART * hull }
         })
     };
-    if meets(end, start) && follows(true) {
+    if follows(true) {
         return Some(true);
     }
-    (meets(start, end) && follows(false)).then_some(false)
+    follows(false).then_some(false)
 }
 
+/// None where a neighbourhood cannot be evaluated, as at a pole.
 fn join(
     a: &Side<'_>,
     b: &Side<'_>,
     opposed: bool,
     size: f64,
-    numbers: &[usize],
     options: &Check,
-) -> Result<JoinLine, Failure> {
+) -> Result<Option<JoinLine>, Failure> {
     let samples = options.samples as usize;
-    let (mut patches, mut ribbons) = (Largest::default(), Largest::default());
+    let (mut shapes, mut prescribed) = (Largest::default(), Largest::default());
     for m in 0..samples {
         // Denser toward the corners, as the report on the sides.
         let t = (std::f64::consts::FRAC_PI_4 * (2 * m + 1) as f64 / samples as f64).sin().powi(2);
         let other = if opposed { 1.0 - t } else { t };
-        patches.compare(&seen(a, t)?, &seen(b, other)?, opposed, size);
-        if let (Some(first), Some(second)) = (a.ribbon.jet(t, 0.0), b.ribbon.jet(other, 0.0)) {
-            let prescribed = |jet: SurfaceJet| Seen {
-                point: jet.point,
-                along: jet.du,
-                normal: jet.normal(),
-                jet: Some(jet),
-            };
-            ribbons.compare(&prescribed(first), &prescribed(second), opposed, size);
+        let (Some(first), Some(second)) = (a.seen(t)?, b.seen(other)?) else { return Ok(None) };
+        shapes.compare(&first, &second, opposed, size);
+        if let (Some(first), Some(second)) = (a.prescribed(t)?, b.prescribed(other)?) {
+            prescribed.compare(&first, &second, opposed, size);
         }
     }
-    let figures = patches.figures();
+    let figures = shapes.figures();
     let position = options.position.unwrap_or(GAP * size);
     // The patches may differ by what the ribbons differ, and no more.
-    let meant = ribbons.figures();
+    let meant = prescribed.figures();
     let tolerances = Tolerances {
         position,
         angle: options.angle + meant.g1.filter(|x| *x <= CREASE).unwrap_or(0.0),
         curvature: options.curvature + meant.g2.filter(|x| *x <= BEND).unwrap_or(0.0),
     };
-    let order = a.of.continuity()[a.side].geometric().min(b.of.continuity()[b.side].geometric());
+    let order = a.kept().min(b.kept());
     let smooth = order >= 1 && meant.g1.is_some_and(|x| x <= CREASE);
     let bent_alike = smooth && order >= 2 && meant.g2.is_some_and(|x| x <= BEND);
     let promised = usize::from(smooth) + usize::from(bent_alike);
     let measured = figures.measured(&tolerances);
-    Ok(JoinLine {
-        shapes: [numbers[a.patch], numbers[b.patch]],
+    Ok(Some(JoinLine {
+        shapes: [a.shape, b.shape],
         sides: [a.side, b.side],
         opposed,
         promised: format!("G{promised}"),
         measured: order_name(measured),
         figures,
         ok: measured.is_some_and(|measured| measured >= promised),
-    })
+    }))
 }
 
 /// A surface at a place on a side.
@@ -165,14 +161,44 @@ struct Seen {
     jet: Option<SurfaceJet>,
 }
 
-/// The patch from inside: its own normal there, which is not taken from the ribbon.
-fn seen(side: &Side<'_>, t: f64) -> Result<Seen, GbError> {
-    let location = Location::Side { side: side.side, t };
-    let jet = side.of.jet_at(location)?;
-    let outside = side.of.normal_at(location).ok();
-    let toward = |normal: DVec3| if outside.is_some_and(|n| n.dot(normal) < 0.0) { -normal } else { normal };
-    let point = side.of.point_at(location)?;
-    Ok(Seen { point, along: side.curve.jet(t).d1, normal: jet.normal().map(toward), jet: Some(jet) })
+impl Side<'_> {
+    /// The continuity that the shape keeps with what is prescribed on this side: a surface is that itself.
+    fn kept(&self) -> usize {
+        match &self.of {
+            Of::Ribbon { patch, .. } => patch.continuity()[self.side].geometric(),
+            Of::Edge(_) => usize::MAX,
+        }
+    }
+
+    /// The shape from inside: a patch's own normal there, which is not taken from the ribbon.
+    fn seen(&self, t: f64) -> Result<Option<Seen>, GbError> {
+        let Of::Ribbon { patch, curve, .. } = &self.of else { return Ok(self.on_edge(t)) };
+        let location = Location::Side { side: self.side, t };
+        let jet = patch.jet_at(location)?;
+        let outside = patch.normal_at(location).ok();
+        let toward =
+            |normal: DVec3| if outside.is_some_and(|n| n.dot(normal) < 0.0) { -normal } else { normal };
+        let point = patch.point_at(location)?;
+        let (along, normal) = (curve.jet(t).d1, jet.normal().map(toward));
+        Ok(Some(Seen { point, along, normal, jet: Some(jet) }))
+    }
+
+    /// What the shape should be on this side: the ribbon, or the surface itself.
+    fn prescribed(&self, t: f64) -> Result<Option<Seen>, GbError> {
+        let Of::Ribbon { ribbon, .. } = &self.of else { return Ok(self.on_edge(t)) };
+        Ok(ribbon.jet(t, 0.0).map(|jet| Seen {
+            point: jet.point,
+            along: jet.du,
+            normal: jet.normal(),
+            jet: Some(jet),
+        }))
+    }
+
+    fn on_edge(&self, t: f64) -> Option<Seen> {
+        let Of::Edge(edge) = &self.of else { return None };
+        let (jet, along) = edge.jet(t).ok()?;
+        Some(Seen { point: jet.point, along, normal: jet.normal(), jet: Some(jet) })
+    }
 }
 
 /// The largest figures so far.

@@ -5,6 +5,7 @@ mod plain;
 
 use casteljau::gb::{ConcavePatch, ContactLimit, ContinuityReport, Maximum, SideReport};
 use casteljau::geom::UNIT_ROUNDOFF;
+use casteljau::glam::DVec3;
 use serde::Serialize;
 
 use crate::arguments::Check;
@@ -45,6 +46,25 @@ impl Figures {
     }
 }
 
+/// Pairs of sides, given by points along them, whose middles between the ends are near each other; in order of their
+/// numbers. Of the ends, since one curve may be run through at different paces.
+fn pairs<'a>(sides: impl Iterator<Item = &'a [DVec3]>, near: f64) -> Vec<(usize, usize)> {
+    let middle = |points: &[DVec3]| Some(points.first()?.midpoint(*points.last()?));
+    let mut order: Vec<(DVec3, usize)> =
+        sides.enumerate().filter_map(|(i, points)| Some((middle(points)?, i))).collect();
+    order.sort_by(|a, b| a.0.x.total_cmp(&b.0.x));
+    let mut found = Vec::new();
+    for (place, &(middle, i)) in order.iter().enumerate() {
+        for &(other, j) in order[place + 1..].iter().take_while(|(other, _)| other.x - middle.x <= near) {
+            if middle.distance(other) <= near {
+                found.push((i.min(j), i.max(j)));
+            }
+        }
+    }
+    found.sort_unstable();
+    found
+}
+
 /// `G1`, or `none`.
 fn order_name(order: Option<usize>) -> String {
     order.map_or_else(|| "none".into(), |g| format!("G{g}"))
@@ -76,14 +96,13 @@ pub fn run(options: &Check, json: bool) -> Result<(), Failure> {
     let shapes = shapes.collect::<Result<Vec<_>, _>>()?;
     let mut lines = Lines::new();
     let mut broken = 0_usize;
-    let (mut patches, mut numbers, mut plain) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut patches, mut plain) = (Vec::new(), Vec::new());
     for (named, geometry) in input.shapes.iter().zip(&shapes) {
         let Some(patch) = geometry.as_gb_patch() else {
             plain.push((named.0, geometry));
             continue;
         };
-        numbers.push(named.0);
-        patches.push(patch);
+        patches.push((named.0, patch));
         if !json {
             lines.text(&Input::title(named))?;
             lines.text(&head("  side"))?;
@@ -96,7 +115,7 @@ pub fn run(options: &Check, json: bool) -> Result<(), Failure> {
             if json { lines.json(&line)? } else { side_text(&line, &mut lines)? }
         }
     }
-    let joins = joins::measure(&patches, &numbers, options)?;
+    let joins = joins::measure(&patches, &plain, options)?;
     let plain = plain::measure(&plain, options)?;
     if !json && joins.len() + plain.len() > 0 {
         lines.text("shared sides")?;

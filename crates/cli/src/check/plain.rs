@@ -1,7 +1,7 @@
 //! Where curves, patches and triangles meet: curves end to end, surfaces edge to edge. They promise nothing, so that this
 //! tells figures and breaks nothing.
 
-use casteljau::geom::BoundingBox;
+use casteljau::geom::{BoundingBox, SurfaceJet};
 use casteljau::glam::DVec3;
 use casteljau::io::Geometry;
 use casteljau::shape::{
@@ -11,7 +11,7 @@ use casteljau::shape::{
 use serde::Serialize;
 
 use super::joins::{APART, ENDS, GAP};
-use super::{Figures, row};
+use super::{Figures, pairs, row};
 use crate::arguments::Check;
 use crate::failure::Failure;
 use crate::output::Lines;
@@ -50,7 +50,34 @@ enum Of<'g> {
 }
 
 /// Steps along an edge for comparing it with others.
-const STEPS: usize = 16;
+pub(super) const STEPS: usize = 16;
+
+/// An edge of a surface, counter-clockwise in its parameter plane.
+#[derive(Clone)]
+pub(super) struct Edge<'g> {
+    pub(super) side: usize,
+    surface: &'g dyn ParametricSurface,
+    /// The parameters where it starts and where it ends.
+    ends: [[f64; 2]; 2],
+    edge: SurfaceEdge<'g>,
+    /// Points along it, ends included.
+    pub(super) points: Vec<DVec3>,
+}
+
+impl Edge<'_> {
+    fn parameters(&self, s: f64) -> [f64; 2] {
+        let [start, end] = self.ends;
+        [0, 1].map(|axis| start[axis] * (1.0 - s) + end[axis] * s)
+    }
+
+    /// The surface's jet at a place from 0 to 1 along the edge, and the derivative along it.
+    pub(super) fn jet(&self, s: f64) -> Result<(SurfaceJet, DVec3), ShapeError> {
+        let [u, v] = self.parameters(s);
+        let jet = self.surface.try_jet(u, v)?;
+        let [start, end] = self.ends;
+        Ok((jet, jet.du * (end[0] - start[0]) + jet.dv * (end[1] - start[1])))
+    }
+}
 
 pub fn measure(shapes: &[(usize, &Geometry)], options: &Check) -> Result<Vec<PlainLine>, Failure> {
     let mut sides = Vec::new();
@@ -59,13 +86,18 @@ pub fn measure(shapes: &[(usize, &Geometry)], options: &Check) -> Result<Vec<Pla
         if let Some(curve) = geometry.as_curve() {
             sides.extend(ends(*shape, geometry, curve));
         } else if let Some(surface) = geometry.as_surface() {
-            sides.extend(edges(*shape, surface)?);
+            sides.extend(edges(surface)?.into_iter().map(|edge| Side {
+                shape: *shape,
+                side: edge.side,
+                of: Of::Surface(edge.edge),
+                points: edge.points,
+            }));
         }
     }
     let bounds = BoundingBox::from_points(sides.iter().flat_map(|side| side.points.iter().copied()));
     let size = bounds.map_or(0.0, |b| b.diagonal());
     let mut lines = Vec::new();
-    for (a, b) in pairs(&sides, ENDS * size) {
+    for (a, b) in pairs(sides.iter().map(|side| &side.points[..]), ENDS * size) {
         let (a, b) = (&sides[a], &sides[b]);
         if let Some(opposed) = shared(a, b, ENDS * size) {
             lines.extend(join(a, b, opposed, size, options)?);
@@ -84,8 +116,7 @@ fn ends<'g>(shape: usize, geometry: &'g Geometry, curve: &dyn ParametricCurve) -
 }
 
 /// All edges that have no pole and are no points.
-fn edges(shape: usize, surface: &dyn ParametricSurface) -> Result<Vec<Side<'_>>, ShapeError> {
-    // Counter-clockwise in the parameter plane.
+pub(super) fn edges(surface: &dyn ParametricSurface) -> Result<Vec<Edge<'_>>, ShapeError> {
     let all: Vec<(SurfaceEdge<'_>, [[f64; 2]; 2])> = match surface.domain() {
         SurfaceDomain::Rectangle([u, v]) => {
             let (a, b, c, d) = (u.start(), u.end(), v.start(), v.end());
@@ -106,41 +137,20 @@ fn edges(shape: usize, surface: &dyn ParametricSurface) -> Result<Vec<Side<'_>>,
             (0..3).map(edge).collect::<Result<_, _>>()?
         }
     };
-    let mut sides = Vec::new();
-    for (side, (edge, [start, end])) in all.into_iter().enumerate() {
+    let mut edges = Vec::new();
+    for (side, (edge, ends)) in all.into_iter().enumerate() {
+        let mut edge = Edge { side, surface, ends, edge, points: Vec::new() };
         let at = |k: usize| {
-            let s = k as f64 / STEPS as f64;
-            let [u, v] = [0, 1].map(|axis| start[axis] * (1.0 - s) + end[axis] * s);
+            let [u, v] = edge.parameters(k as f64 / STEPS as f64);
             surface.try_point(u, v)
         };
         let Ok(points) = (0..=STEPS).map(at).collect::<Result<Vec<_>, _>>() else { continue };
         if points.iter().any(|p| *p != points[0]) {
-            sides.push(Side { shape, side, of: Of::Surface(edge), points });
+            edge.points = points;
+            edges.push(edge);
         }
     }
-    Ok(sides)
-}
-
-/// Pairs of sides whose middles are near each other, found by sorting; in order of their numbers.
-fn pairs(sides: &[Side<'_>], near: f64) -> Vec<(usize, usize)> {
-    // Of the ends, as edges of one curve may be run through at different paces.
-    let middle = |i: usize| match sides[i].points.as_slice() {
-        [first, .., last] => first.midpoint(*last),
-        [only] => *only,
-        [] => DVec3::ZERO,
-    };
-    let mut order: Vec<(f64, usize)> = (0..sides.len()).map(|i| (middle(i).x, i)).collect();
-    order.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut found = Vec::new();
-    for (place, &(x, i)) in order.iter().enumerate() {
-        for &(_, j) in order[place + 1..].iter().take_while(|(other, _)| other - x <= near) {
-            if middle(i).distance(middle(j)) <= near {
-                found.push((i.min(j), i.max(j)));
-            }
-        }
-    }
-    found.sort_unstable();
-    found
+    Ok(edges)
 }
 
 /// Whether two sides are the same place or curve, and if so whether they run opposite ways.
