@@ -3,7 +3,7 @@
 
 use casteljau_shape::bernstein::RootKind;
 use casteljau_shape::geom::glam::{DVec3, DVec4};
-use casteljau_shape::geom::{Interval, TangentPlane};
+use casteljau_shape::geom::{Interval, TangentPlane, UNIT_ROUNDOFF};
 use casteljau_shape::{
     Curve, LineIntersection, LinePoint, Patch, PlaneIntersection, PlanePoint, RationalCurve, RationalPatch,
     ShapeError, StraightLine,
@@ -42,6 +42,23 @@ fn bowl() -> Patch {
     let height = [1.0, -1.0, 1.0];
     let at = |k: usize| DVec3::new((k / 3) as f64 - 1.0, (k % 3) as f64 - 1.0, height[k / 3] + height[k % 3]);
     Patch::new([2, 2], (0..9).map(at).collect::<Vec<_>>()).unwrap()
+}
+
+/// What the rounding of coefficients makes of the parameters of a transversal point, at most.
+///
+/// The two equations `Σ B w n·(A − p) = 0` have coefficients within 8(16 + 8(m+n+2))u of their size, and the slopes
+/// w·n·S_u, w·n·S_v. The bound by row sums and by boxes of sides 1 : 2 may lose a factor of 4; if the box is not 64
+/// times as wide as what rounding makes of the place, it is itself what is stated.
+fn rounded_parameters(patch: &RationalPatch, line: &StraightLine, at: [f64; 2]) -> f64 {
+    let jet = patch.jet(at[0], at[1]).unwrap();
+    let degree = (patch.degrees()[0] + patch.degrees()[1] + 2) as f64;
+    let size = |w: f64| w * (2.0 + line.origin().length());
+    let largest = patch.weights().map(size).fold(0.0, f64::max);
+    let least_weight = patch.weights().fold(f64::INFINITY, f64::min);
+    let across = line.direction().normalize();
+    let slopes = [jet.du, jet.dv].map(|s| s - s.dot(across) * across);
+    let spread = slopes[0].cross(slopes[1]).length() / slopes[0].length().max(slopes[1].length());
+    4.0 * 64.0 * 8.0 * (16.0 + 8.0 * degree) * UNIT_ROUNDOFF * largest / (least_weight * spread)
 }
 
 proptest! {
@@ -86,7 +103,8 @@ proptest! {
         prop_assert!(found.iter().any(near), "{u} {v}: {found:?}");
         for f in &found {
             prop_assert!(f.distance < if f.transversal { 1e-12 } else { 1e-6 }, "{f:?}");
-            prop_assert!(!f.transversal || f.uncertainty.iter().all(|&r| r < 1e-8), "{f:?}");
+            let allowed = rounded_parameters(&patch, &line, f.parameters);
+            prop_assert!(!f.transversal || f.uncertainty.iter().all(|&r| r < allowed), "{f:?}, {allowed:e}");
         }
         // A segment that ends before the point, and one that ends beyond it.
         let (before, beyond) = (StraightLine::segment(on - 2.0 * d, on - 1e-3 * d), StraightLine::segment(on - 2.0 * d, on + 1e-3 * d));

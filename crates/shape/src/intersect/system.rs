@@ -36,6 +36,21 @@ pub(super) struct Isolated {
     around: Area,
 }
 
+/// A box in which a root is proved, in local parameters of `[−1, 1]²`.
+struct Krawczyk {
+    /// |J⁻¹f(0)|, rounding included.
+    step: f64,
+    /// Bound of |J⁻¹∂f − 1| on the box, below 1.
+    deviation: f64,
+}
+
+impl Krawczyk {
+    /// The root lies within so much of the middle.
+    fn reach(&self) -> f64 {
+        self.step / (1.0 - self.deviation)
+    }
+}
+
 /// The roots of a system.
 pub(super) struct Roots {
     pub isolated: Vec<Isolated>,
@@ -142,20 +157,25 @@ impl System {
         if beyond > 1.0 / degree {
             return None;
         }
+        let first = self.krawczyk(at, half, part)?;
+        let around = [0, 1].map(|k| [at[k] - half[k], at[k] + half[k]]);
+        // The Jacobian changes less on a smaller box, which encloses the root more tightly.
+        let smaller = half * first.step.sqrt();
+        let second = self.krawczyk(at, smaller, part).map(|k| smaller * k.reach());
+        let radius = second.map_or(half * first.reach(), |radius| radius.min(half * first.reach()));
+        Some(Isolated { at, radius, around })
+    }
+
+    /// Krawczyk's test on the box `at ± half`: `None` if it does not show a root.
+    fn krawczyk(&self, at: DVec2, half: DVec2, part: &mut [DVec2]) -> Option<Krawczyk> {
         let around = [0, 1].map(|k| [at[k] - half[k], at[k] + half[k]]);
         restrict_tensor(&self.net, self.degrees, around, part).ok()?;
         let inverse = self.preconditioner(part)?;
-        let deviation = self.deviation(part, inverse);
-        // In local parameters of [−1, 1]: the root is within |J⁻¹f(0)|/(1 − deviation) of the middle.
+        let deviation = self.deviation(part, inverse).max_element();
         let [u, v] = at.to_array();
         let value = TensorNet::validated(&self.net, self.degrees).value(u, v);
-        let step = (inverse * value).abs() + row_sums(inverse) * self.grown_error();
-        let reach = step.max_element() / (1.0 - deviation.max_element());
-        (deviation.max_element() < 1.0 && reach < 1.0).then_some(Isolated {
-            at,
-            radius: half * reach,
-            around,
-        })
+        let step = ((inverse * value).abs() + row_sums(inverse) * self.grown_error()).max_element();
+        Some(Krawczyk { step, deviation }).filter(|k| k.deviation < 1.0 && k.reach() < 1.0)
     }
 
     /// The inverse of the Jacobian by the local parameters of `[−1, 1]²`, in the middle of a part.
