@@ -9,21 +9,21 @@
 //! The medians over the exact cases: `cargo run --release -p casteljau-domain --example harmonic_bars`.
 //!
 //! **Evaluation** (`harmonic evaluate`, nanoseconds a point; order 0, 1, 2 = values, gradients, second derivatives). The
-//! limit for c unknowns and n coordinates is c·m·k multiply-adds, m being n rounded up to a multiple of 8 and k = 1, 3, 5
-//! the solved rows, 8 a cycle, and at each singular corner a logarithm, an arctangent, an exponential, a sine and a
-//! cosine (28 ns for all of them by the scalar functions of the standard library).
+//! limit for c unknowns and n coordinates is c·m·k multiply-adds, m being n rounded up to a multiple of 4 and k = 1, 3, 5
+//! the solved rows, 8 a cycle at 3.7 GHz:
 //!
-//! | polygon | c | singular corners | values, limit | measured | gradients, limit | measured | second, limit | measured |
-//! | --- | --- | --- | --- | --- | --- | --- | --- | --- |
-//! | 6 L | 71 | 1 | 48 | 250 | 86 | 340 | 120 | 530 |
-//! | 8 U | 137 | 2 | 93 | 540 | 170 | 680 | 240 | 1140 |
-//! | 10 regular | 115 | 10 | 340 | 1210 | 470 | 1380 | 590 | 1970 |
-//! | 10 star | 140 | 10 | 360 | 1280 | 510 | 1560 | 660 | 2260 |
+//! | polygon | c | singular corners | values | gradients | second derivatives |
+//! | --- | --- | --- | --- | --- | --- |
+//! | 6 L | 71 | 1 | 19 | 58 | 96 |
+//! | 8 U | 137 | 2 | 37 | 110 | 190 |
+//! | 10 regular | 115 | 10 | 47 | 140 | 230 |
+//! | 10 star | 140 | 10 | 57 | 170 | 280 |
 //!
-//! Most of the distance, a factor of three to six, is the chain of complex products that makes the c functions: each
-//! power waits for the one before it.
+//! Eight points run side by side, their logarithms, angles and powers too. With gradients the exact cases need 259 ns a
+//! point in the median and 465 at most, by `harmonic_bars` above: two to four times the limit. Most of the distance is
+//! the chain of complex products that makes the c functions: each power waits for the one before it.
 //!
-//! Measured on one core of an AMD EPYC with AVX2, other work on the machine.
+//! Measured on one core of an AMD EPYC (Zen 4) with AVX-512.
 
 use std::f64::consts::{PI, TAU};
 use std::hint::black_box;

@@ -2,12 +2,12 @@
 //!
 //! | benchmark | limit | measured | why |
 //! | --- | --- | --- | --- |
-//! | `points from samples` | 22 ns a point | 35 ns | 460 additions and multiplications and 37 divisions, four at a time with AVX2; one blend waits for another |
-//! | `normals from samples` | 70 ns a point | 115 ns | the same on numbers with two derivatives, 3 to 5 operations each; more than the registers hold |
-//! | `jets from samples` | 250 ns a point | 390 ns | the same with five derivatives |
-//! | `blend matrix` | 25 ns a row | 36 ns | the blends of a point and 384 bytes to write |
-//! | `edit product` | 60 µs | 73 µs | 1.44 million multiplications and as many additions, four at a time and two in flight at 3 GHz; 3.84 MB from the second-level cache |
-//! | `move one control point` | 4 µs | 5 µs | 80 kB of weights, 240 kB to read and write |
+//! | `points from samples` | 22 ns a point | 44 ns | 460 additions and multiplications and 37 divisions, four at a time with AVX2; one blend waits for another |
+//! | `normals from samples` | 70 ns a point | 124 ns | the same on numbers with two derivatives, 3 to 5 operations each; more than the registers hold |
+//! | `jets from samples` | 250 ns a point | 344 ns | the same with five derivatives |
+//! | `blend matrix` | 25 ns a row | 48 ns | the blends of a point and 384 bytes to write |
+//! | `edit product` | 60 µs | 68 µs | 1.44 million multiplications and as many additions, four at a time and two in flight at 3 GHz; 3.84 MB from the second-level cache |
+//! | `move one control point` | 4 µs | 12 µs | 80 kB of weights, 240 kB to read and write |
 //!
 //! Measured on one core of an AMD EPYC (Zen 4) with `cargo bench -p casteljau-benches --bench patch`.
 

