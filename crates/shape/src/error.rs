@@ -30,8 +30,12 @@ pub enum ShapeError {
     /// use casteljau_shape::{Curve, ShapeError, geom::glam::DVec3};
     /// let refused = Curve::new(vec![DVec3::ZERO, DVec3::new(0.0, f64::INFINITY, 0.0)]);
     /// assert_eq!(refused, Err(ShapeError::Coordinate { place: 1, axis: 1, value: f64::INFINITY }));
+    /// let refused = Curve::new(vec![DVec3::new(1e200, 0.0, 0.0)]).unwrap_err();
+    /// assert_eq!(refused.to_string(), "control point 0, coordinate 0: 1e200 is not a number below 1e140");
     /// ```
-    #[error("control point {place}, coordinate {axis}: {value} is not a number below {LARGEST_COORDINATE:e}")]
+    #[error(
+        "control point {place}, coordinate {axis}: {value:e} is not a number below {LARGEST_COORDINATE:e}"
+    )]
     Coordinate {
         /// Place of the control point in memory, from 0.
         place: usize,

@@ -56,7 +56,9 @@ mod tight_box;
 mod triangle;
 mod triangle_operations;
 
-pub use closest::{CurveProjector, LocalMinima, LocalMinimum, LocalProjection, PatchProjector, Projection};
+pub use closest::{
+    CurveProjector, LocalMinima, LocalMinimum, LocalProjection, PatchProjector, Projection, TriangleProjector,
+};
 pub use control_point::ControlPoint;
 pub use curve::{BezierCurve, Curve, RationalCurve};
 pub use error::{LARGEST_COORDINATE, ShapeError};

@@ -75,6 +75,47 @@ proptest! {
         prop_assert!(report.continuity(&TIGHT).c1, "{report:?}");
     }
 
+    /// Weights of both curves at will, and equal ones, where it is the rule for polynomials.
+    #[test]
+    fn continued_rational_curves(
+        c in curve(), bump in vec(0.3..3.0, 8), ratio in 0.2..5.0, slide in -2.0..2.0,
+        v1 in 0.3..3.0, v2 in 0.3..3.0, free in vec(point(), 0..4),
+    ) {
+        let points = c.control_points();
+        let rational = RationalCurve::new(points, &bump[..points.len()]).unwrap();
+        let lifted: Vec<_> = free.iter().zip(&bump).map(|(p, w)| (*p * *w).extend(*w)).collect();
+        let next = rational.continued_with_curvature(ratio, slide, [v1, v2], &lifted).unwrap();
+        let report = JoinReport::of_curves(&rational, &next).unwrap();
+        let met = report.continuity(&JoinTolerance { gap: 1e-12, angle: 1e-5, relative: 1e-7 });
+        prop_assert!(met.c1 && met.g1 && met.g2, "{report:?}");
+        let (plain, lifted) = (RationalCurve::from(c.clone()), free.iter().map(|p| p.extend(1.0)).collect::<Vec<_>>());
+        let same = plain.continued_with_curvature(ratio, slide, [1.0, 1.0], &lifted).unwrap();
+        let polynomial = RationalCurve::from(c.continued_with_curvature(ratio, slide, &free).unwrap());
+        for (p, q) in same.control_points().iter().zip(polynomial.control_points()) {
+            prop_assert!(p.distance(*q) < 1e-9 * (1.0 + q.length()), "{p} {q}");
+        }
+    }
+
+    /// Tangent planes agree where the ratio varies; a constant one is the plain rule.
+    #[test]
+    fn continued_varying_patches(
+        points in vec(point(), 16), weights in vec(0.5..2.0, 16), alpha in vec(0.3..3.0, 1..4),
+        beta in vec(-1.0..1.0, 0..4), edge in 0..4usize,
+    ) {
+        let net: Vec<DVec3> = (0..16).map(|k| DVec3::new((k / 4) as f64, (k % 4) as f64, points[k].z)).collect();
+        let patch = RationalPatch::new([3, 3], &net, &weights).unwrap();
+        let edge = PatchEdge::ALL[edge];
+        let next = patch.continued_varying(edge, &alpha, &beta, &[]).unwrap();
+        let (a, b) = (SurfaceEdge::of_patch(&patch, edge).unwrap(), SurfaceEdge::of_patch(&next, PatchEdge::UStart).unwrap());
+        let report = JoinReport::along_edge(&a, &b, 17).unwrap();
+        prop_assert!(report.gap.value < 1e-13 && report.angle.unwrap().value < 1e-4, "{report:?}");
+        let constant = patch.continued_varying(edge, &alpha[..1], &[], &[]).unwrap();
+        let plain = patch.continued(edge, alpha[0], &[]).unwrap();
+        for (p, q) in constant.control_points().iter().zip(plain.control_points()) {
+            prop_assert!(p.distance(*q) < 1e-14 * (1.0 + q.length()), "{p} {q}");
+        }
+    }
+
     /// A patch cut in two, each half turned in every way: the right edges meet with every continuity.
     #[test]
     fn cut_patches(points in vec(point(), 16), bump in vec(0.5..2.0, 16), cut in 0.3..0.7, turn in 0..8usize, other in 0..8usize) {
@@ -234,11 +275,19 @@ fn doors() {
     assert!(Curve::new([DVec3::ZERO]).unwrap().continued(1.0, &[]).is_err());
     let still = Curve::new([DVec3::ZERO, DVec3::X, DVec3::X]).unwrap();
     assert!(still.continued_with_curvature(1.0, 0.0, &[]).is_err());
+    let bent = RationalCurve::from(Curve::new([DVec3::ZERO, DVec3::X, DVec3::ONE]).unwrap());
+    for weights in [[0.0, 1.0], [1.0, -1.0], [f64::NAN, 1.0]] {
+        assert!(bent.continued_with_curvature(1.0, 0.0, weights, &[]).is_err());
+    }
     let patch = Patch::new([0, 1], [DVec3::ZERO, DVec3::X]).unwrap();
     assert!(patch.continued(PatchEdge::UEnd, 1.0, &[]).is_err());
     assert!(matches!(patch.continued(PatchEdge::VEnd, 1.0, &[]).map(|p| p.degrees()), Ok([1, 0])));
     let flat = Patch::new([1, 1], [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::ONE]).unwrap();
     assert!(matches!(flat.continued(PatchEdge::UEnd, 1.0, &[DVec3::X]), Err(ShapeError::NetSize { .. })));
+    for (alpha, beta) in [(&[][..], &[][..]), (&[1.0, -1.0], &[]), (&[1.0], &[f64::NAN])] {
+        assert!(flat.continued_varying(PatchEdge::UEnd, alpha, beta, &[]).is_err());
+    }
+    assert!(flat.continued_varying(PatchEdge::UEnd, &[1.0, 2.0], &[], &[DVec3::X]).is_err());
     let triangle = RationalTriangle::new(0, &[DVec3::X], &[1.0]).unwrap();
     assert!(SurfaceEdge::of_patch(&triangle, PatchEdge::UEnd).is_err());
     assert!(SurfaceEdge::of_triangle(&triangle, 3).is_err() && SurfaceEdge::of_triangle(&flat, 0).is_err());

@@ -7,7 +7,7 @@ use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
 use super::minima::{clusters, over, sign};
 use super::net::{LocalNet, homogeneous};
 use super::newton::{descend, evaluate};
-use super::tree::{Best, Tree};
+use super::tree::{Best, Cuts, Tree};
 use super::{LocalMinima, LocalMinimum, LocalProjection, Projection, check_query};
 use crate::{BezierCurve, ControlPoint, ShapeError};
 
@@ -39,7 +39,7 @@ impl CurveProjector {
     pub fn new<P: ControlPoint>(curve: &BezierCurve<P>) -> Result<Self, ShapeError> {
         let control_points = homogeneous(curve.control_points());
         let net = LocalNet::new(&control_points, [curve.degree(), 0])?;
-        Ok(Self { control_points, interval: curve.interval(), tree: Tree::new(net) })
+        Ok(Self { control_points, interval: curve.interval(), tree: Tree::new(net, Cuts::default()) })
     }
 
     /// The closest point of the whole curve, with a lower bound of the distance as its certificate.

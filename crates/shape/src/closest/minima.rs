@@ -144,7 +144,7 @@ impl<const D: usize> Tree<D> {
                     continue;
                 }
             }
-            let axis = if D == 2 && known.spread[1] > known.spread[0] { 1 } else { 0 };
+            let axis = self.axis(&area, known.spread);
             let width = (0..D).map(|k| area[k][1] - area[k][0]).fold(0.0, f64::max);
             let blurred = width <= BLURRED && piece.is_rounded(q, known.spread[axis]);
             if width <= RESOLUTION || blurred || self.is_level(piece, q) {

@@ -1,7 +1,7 @@
 //! The closest point of a shape, and all places where the distance has a minimum, with a proof.
 //!
-//! A projector is made once for a shape: [`CurveProjector`], [`PatchProjector`]. It cuts the shape into
-//! pieces on which all second derivatives are bounded. A query q then walks down the tree of pieces and leaves
+//! A projector is made once for a shape: [`CurveProjector`], [`PatchProjector`], [`TriangleProjector`]. It
+//! cuts the shape into pieces on which all second derivatives are bounded. A query q then walks down the tree of pieces and leaves
 //! one aside for a reason that holds in spite of rounding:
 //!
 //! * nothing in it is closer to q than what was found already,
@@ -30,6 +30,7 @@ mod patch;
 mod piece;
 mod square;
 mod tree;
+mod triangle;
 
 use casteljau_geom::glam::DVec3;
 
@@ -37,10 +38,11 @@ pub use curve::CurveProjector;
 pub(crate) use minima::clusters;
 pub use minima::{LocalMinima, LocalMinimum};
 pub use patch::PatchProjector;
+pub use triangle::TriangleProjector;
 
 use crate::{LARGEST_COORDINATE, ShapeError};
 
-/// A closest point of a shape with D parameters: 1 for curves, 2 for patches.
+/// A closest point of a shape with D parameters: 1 for curves, 2 for patches and triangles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Projection<const D: usize> {
     /// The parameters of the point.

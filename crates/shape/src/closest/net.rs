@@ -38,11 +38,7 @@ impl LocalNet {
     /// # Errors
     /// [`ShapeError::Weight`] for a weight that is not positive.
     pub fn new(points: &[DVec4], degrees: [usize; 2]) -> Result<Self, ShapeError> {
-        for (place, p) in points.iter().enumerate() {
-            if !(p.w > 0.0 && p.w.is_finite() && (1.0 / p.w).is_finite()) {
-                return Err(ShapeError::Weight { place, value: p.w });
-            }
-        }
+        check_weights(points)?;
         let euclidean = || points.iter().map(|p| p.xyz() / p.w);
         let (low, high) = euclidean()
             .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
@@ -229,6 +225,16 @@ pub(super) fn derivative_net(net: &[DVec4], degrees: [usize; 2], axis: usize, ou
             out.push(sum);
         }
     }
+}
+
+/// Every weight positive, and large enough to be divided by.
+pub(super) fn check_weights(points: &[DVec4]) -> Result<(), ShapeError> {
+    for (place, p) in points.iter().enumerate() {
+        if !(p.w > 0.0 && p.w.is_finite() && (1.0 / p.w).is_finite()) {
+            return Err(ShapeError::Weight { place, value: p.w });
+        }
+    }
+    Ok(())
 }
 
 /// A shape's control points with their weights, which become positive if all are negative.

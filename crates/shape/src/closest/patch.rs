@@ -4,10 +4,10 @@ use casteljau_bernstein::{TensorNet, value};
 use casteljau_geom::Interval;
 use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
 
-use super::minima::{clusters, over, sign};
+use super::minima::{Found, clusters, over, sign};
 use super::net::{LocalNet, homogeneous};
 use super::newton::{descend, evaluate};
-use super::tree::{Best, Tree};
+use super::tree::{Best, Cuts, Tree};
 use super::{LocalMinima, LocalMinimum, LocalProjection, Projection, check_query};
 use crate::{BezierPatch, ControlPoint, ShapeError};
 
@@ -57,6 +57,26 @@ impl Side {
     }
 }
 
+/// The place of a local minimum on `[0, 1]²`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    pub at: [f64; 2],
+    /// The exact minimum lies within so much of `at`.
+    pub radius: [f64; 2],
+}
+
+/// All local minima of the distance on `[0, 1]²`.
+#[derive(Debug, Clone)]
+pub(super) struct Places {
+    /// Those at which the gradient vanishes.
+    pub inside: Vec<Place>,
+    /// Those at sides and corners, with a gradient that leads inwards.
+    pub on_sides: Vec<Place>,
+    pub unresolved: Vec<[[f64; 2]; 2]>,
+    /// Knows the boxes in which there is one minimum only.
+    pub convex: Found<2>,
+}
+
 /// The place of a corner among four.
 fn corner_place([u, v]: [f64; 2]) -> usize {
     usize::from(u > 0.5) + 2 * usize::from(v > 0.5)
@@ -70,16 +90,24 @@ impl PatchProjector {
     /// # Errors
     /// [`ShapeError::Weight`] unless all weights have one sign.
     pub fn new<P: ControlPoint>(patch: &BezierPatch<P>) -> Result<Self, ShapeError> {
-        let (degrees, intervals) = (patch.degrees(), patch.intervals());
-        let control_points = homogeneous(patch.control_points());
+        Self::of_net(homogeneous(patch.control_points()), patch.degrees(), patch.intervals(), Cuts::default())
+    }
+
+    /// The same from homogeneous control points.
+    pub(super) fn of_net(
+        control_points: Vec<DVec4>,
+        degrees: [usize; 2],
+        intervals: [Interval; 2],
+        cuts: Cuts,
+    ) -> Result<Self, ShapeError> {
         let net = LocalNet::new(&control_points, degrees)?;
         let side = |(held, last)| Side {
-            tree: Tree::new(net.side(held, last)),
+            tree: Tree::new(net.side(held, last), Cuts::default()),
             held,
             value: if last { 1.0 } else { 0.0 },
         };
         let sides = [(0, false), (0, true), (1, false), (1, true)].map(side);
-        Ok(Self { control_points, degrees, intervals, interior: Tree::new(net), sides })
+        Ok(Self { control_points, degrees, intervals, interior: Tree::new(net, cuts), sides })
     }
 
     /// The closest point of the whole patch, sides and corners included, with a lower bound of the distance
@@ -92,6 +120,14 @@ impl PatchProjector {
     /// [`ShapeError::Query`] for a q that is not finite or beyond
     /// [`LARGEST_COORDINATE`](crate::LARGEST_COORDINATE), in itself or measured by the patch's size.
     pub fn closest_point(&self, q: DVec3) -> Result<Projection<2>, ShapeError> {
+        let (at, lower) = self.nearest(q)?;
+        let (point, distance) = self.measured(q, at);
+        let lower_bound = self.interior.net.certified(lower, distance);
+        Ok(Projection { parameters: self.parameters(at), point, distance, lower_bound })
+    }
+
+    /// Where on `[0, 1]²` the closest point is, and a lower bound of `φ = ½|S − q|²` in local coordinates.
+    pub(super) fn nearest(&self, q: DVec3) -> Result<([f64; 2], f64), ShapeError> {
         let net = &self.interior.net;
         let local = net.local(q);
         check_query(q, local)?;
@@ -107,9 +143,7 @@ impl PatchProjector {
                 (at, phi) = (side.parameters(t), best.phi);
             }
         }
-        let (point, distance) = self.measured(q, at);
-        let lower_bound = net.certified(lower, distance);
-        Ok(Projection { parameters: self.parameters(at), point, distance, lower_bound })
+        Ok((at, lower))
     }
 
     /// The local minimum of the distance that Newton's method reaches from `start`.
@@ -142,19 +176,25 @@ impl PatchProjector {
     /// # Errors
     /// [`ShapeError::Query`] as for [`closest_point`](Self::closest_point).
     pub fn local_minima(&self, q: DVec3) -> Result<LocalMinima<2>, ShapeError> {
+        let found = self.minima(q)?;
+        let minimum = |&Place { at, radius }: &Place| {
+            let (point, distance) = self.measured(q, at);
+            LocalMinimum { parameters: at, uncertainty: radius, point, distance }.over(self.intervals)
+        };
+        let mut minima: Vec<_> = found.inside.iter().chain(&found.on_sides).map(minimum).collect();
+        minima.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+        Ok(LocalMinima { minima, unresolved: over(found.unresolved, self.intervals) })
+    }
+
+    /// All local minima of the distance on `[0, 1]²`.
+    pub(super) fn minima(&self, q: DVec3) -> Result<Places, ShapeError> {
         let local = self.interior.net.local(q);
         check_query(q, local)?;
         let found = self.interior.minima(local);
-        let mut answer = LocalMinima::default();
-        let mut keep = |parameters: [f64; 2], uncertainty| {
-            let (point, distance) = self.measured(q, parameters);
-            answer
-                .minima
-                .push(LocalMinimum { parameters, uncertainty, point, distance }.over(self.intervals));
-        };
-        for known in &found.isolated {
-            keep(known.at.at, known.radius);
-        }
+        let inside =
+            found.isolated.iter().map(|known| Place { at: known.at.at, radius: known.radius }).collect();
+        let mut on_sides = Vec::new();
+        let mut keep = |at, radius| on_sides.push(Place { at, radius });
         let mut unresolved = found.unresolved.clone();
         let mut open_corners = [true; 4];
         for side in &self.sides {
@@ -209,9 +249,7 @@ impl PatchProjector {
                 unresolved.push(area);
             }
         }
-        answer.unresolved = over(clusters(unresolved), self.intervals);
-        answer.minima.sort_by(|a, b| a.distance.total_cmp(&b.distance));
-        Ok(answer)
+        Ok(Places { inside, on_sides, unresolved: clusters(unresolved), convex: found })
     }
 
     /// Whether φ grows inwards on all of a side within `radius` of t.

@@ -39,6 +39,24 @@ pub(super) struct Tree<const D: usize> {
     pub net: LocalNet,
     pub nodes: Vec<Node<D>>,
     corners: Vec<(DVec3, [f64; D])>,
+    cuts: Cuts,
+}
+
+/// Which way pieces are cut: across the axis along which they are least like an affine map, but pieces at a side that
+/// is one point always across the first axis. Then few pieces have that point, and the others are in good shape.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Cuts {
+    /// Whether the shape is one point at the first and at the last value of the first axis.
+    pub apices: [bool; 2],
+}
+
+impl Cuts {
+    /// The axis to cut, from a number for each of them.
+    pub fn axis<const D: usize>(self, area: &Area<D>, by_axis: [f64; D]) -> usize {
+        let [first, last] = self.apices;
+        let at_apex = (first && area[0][0] == 0.0) || (last && area[0][1] == 1.0);
+        if D == 2 && by_axis[1] > by_axis[0] && !at_apex { 1 } else { 0 }
+    }
 }
 
 /// The state of a search.
@@ -136,13 +154,13 @@ impl<const D: usize> Ord for Open<D> {
 
 impl<const D: usize> Tree<D> {
     /// Cuts the shape where it is least like an affine map, up to the allowed number of pieces.
-    pub fn new(net: LocalNet) -> Self {
+    pub fn new(net: LocalNet, cuts: Cuts) -> Self {
         let mut work = Workshop::default();
         let mut nodes: Vec<Node<D>> = Vec::new();
         let mut waiting = BinaryHeap::new();
         let whole = [[0.0, 1.0]; D];
         if let Some(piece) = work.piece(&net, &whole) {
-            waiting.extend(Waiting::new(&piece, 0, 0));
+            waiting.extend(Waiting::new(&piece, cuts.axis(&whole, piece.nonlinearity()), 0, 0));
             nodes.push(Node { piece, area: whole, halves: 0 });
         }
         while nodes.len() + 2 < 2 * MOST_LEAVES[D] {
@@ -151,7 +169,8 @@ impl<const D: usize> Tree<D> {
             let [Some(first), Some(second)] = areas.map(|area| work.piece(&net, &area)) else { continue };
             nodes[next.node].halves = nodes.len();
             for (piece, area) in [first, second].into_iter().zip(areas) {
-                waiting.extend(Waiting::new(&piece, nodes.len(), next.cuts + 1));
+                let axis = cuts.axis(&area, piece.nonlinearity());
+                waiting.extend(Waiting::new(&piece, axis, nodes.len(), next.cuts + 1));
                 nodes.push(Node { piece, area, halves: 0 });
             }
         }
@@ -163,7 +182,12 @@ impl<const D: usize> Tree<D> {
                 (net.jet(place).point, at)
             })
             .collect();
-        Self { net, nodes, corners }
+        Self { net, nodes, corners, cuts }
+    }
+
+    /// The axis across which to cut a piece.
+    pub fn axis(&self, area: &Area<D>, by_axis: [f64; D]) -> usize {
+        self.cuts.axis(area, by_axis)
     }
 
     /// Whether all points are one, to rounding.
@@ -296,8 +320,7 @@ impl<const D: usize> Tree<D> {
         {
             return None;
         }
-        let axis = if D == 2 && known.spread[1] > known.spread[0] { 1 } else { 0 };
-        Some((known.lower, axis))
+        Some((known.lower, self.axis(area, known.spread)))
     }
 
     /// A piece on which φ is convex: finds its minimum, and shows that φ is nowhere smaller.
@@ -391,10 +414,8 @@ struct Waiting {
 }
 
 impl Waiting {
-    fn new<const D: usize>(piece: &Piece<D>, node: usize, cuts: usize) -> Option<Self> {
-        let by_axis = piece.nonlinearity();
-        let axis = if D == 2 && by_axis[1] > by_axis[0] { 1 } else { 0 };
-        let nonlinearity = by_axis[axis];
+    fn new<const D: usize>(piece: &Piece<D>, axis: usize, node: usize, cuts: usize) -> Option<Self> {
+        let nonlinearity = piece.nonlinearity()[axis];
         (nonlinearity > FLAT && cuts < MOST_CUTS).then_some(Self { nonlinearity, node, axis, cuts })
     }
 }

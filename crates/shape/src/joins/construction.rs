@@ -1,10 +1,11 @@
 //! The neighbour of a curve or patch that joins as wanted.
 
+use casteljau_bernstein::{binomial, elevate};
 use casteljau_geom::Interval;
-use casteljau_geom::glam::DVec3;
+use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
 
 use crate::error::check_points;
-use crate::{BezierCurve, BezierPatch, ControlPoint, Curve, PatchEdge, ShapeError};
+use crate::{BezierCurve, BezierPatch, ControlPoint, Curve, PatchEdge, RationalCurve, ShapeError};
 
 impl<P: ControlPoint> BezierCurve<P> {
     /// The curve that goes on from the end of this one with C¹ continuity: control points `Pₙ`,
@@ -86,7 +87,153 @@ impl Curve {
     }
 }
 
+impl RationalCurve {
+    /// The rational curve that goes on from the end of this one with C¹ and with continuous curvature (G²), its first
+    /// weights `wₙ`, `v₁`, `v₂`: `Q₀ = Pₙ`, `Q₁ = Q₀ + r(Pₙ − Pₙ₋₁)`, `Q₂ = Q₁ + slide·(Q₁ − Q₀) + ρ·h`, and the `free`
+    /// points, which are homogeneous.
+    ///
+    /// h is the offset of `Pₙ₋₂` from the tangent. The curvature at the joint is `(n−1)/n · wₙwₙ₋₂/wₙ₋₁² ·
+    /// |h|/|Pₙ−Pₙ₋₁|²` on one side and likewise on the other, so that with m, the degree of the new curve,
+    /// `ρ = r² · (n−1)m / (n(m−1)) · (wₙwₙ₋₂/wₙ₋₁²) · (v₁²/(wₙv₂))`. Where all weights are equal this is
+    /// [`Curve::continued_with_curvature`].
+    ///
+    /// ```
+    /// use casteljau_shape::{JoinReport, RationalCurve, geom::glam::DVec3};
+    /// let arc = RationalCurve::arc(DVec3::ZERO, DVec3::X, DVec3::Y, 1.0)?.remove(0);
+    /// let next = arc.continued_with_curvature(1.5, 0.5, [2.0, 3.0], &[DVec3::Z.extend(1.0)])?;
+    /// let report = JoinReport::of_curves(&arc, &next)?;
+    /// assert!(report.first.unwrap().value < 1e-14 && report.curvature.unwrap().value < 1e-13);
+    /// # Ok::<(), casteljau_shape::ShapeError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ShapeError::Construction`] unless the ratio is positive and finite, for a degree below 2, where `Pₙ₋₁` and `Pₙ`
+    /// coincide, and unless `wₙ₋₁`, `v₁` and `v₂` have the sign of `wₙ`; [`ShapeError::Degree`],
+    /// [`ShapeError::Coordinate`].
+    ///
+    /// Source: Farin, *Curves and Surfaces for CAGD*, 5th ed., sec. 12.6 for the curvature.
+    pub fn continued_with_curvature(
+        &self,
+        ratio: f64,
+        slide: f64,
+        weights: [f64; 2],
+        free: &[DVec4],
+    ) -> Result<Self, ShapeError> {
+        check_ratio(ratio)?;
+        let &[.., inner, before, end] = self.control_points() else {
+            return Err(ShapeError::Construction {
+                what: "degree of the curve",
+                value: self.degree() as f64,
+            });
+        };
+        for weight in [before.w, weights[0], weights[1]] {
+            let quotient = weight / end.w;
+            if !(quotient > 0.0 && quotient.is_finite()) {
+                return Err(ShapeError::Construction { what: "quotient of the weights", value: quotient });
+            }
+        }
+        let (start, last) = (end.xyz() / end.w, before.xyz() / before.w);
+        let leg = start - last;
+        let Some(tangent) = leg.try_normalize() else {
+            return Err(ShapeError::Construction { what: "length of the last leg", value: leg.length() });
+        };
+        // Times its weight, so that a point at infinity is no exception.
+        let inner = inner.xyz() - last * inner.w;
+        let offset = inner - tangent * tangent.dot(inner);
+        let (n, m) = (self.degree() as f64, (free.len() + 2) as f64);
+        let [v1, v2] = weights;
+        let degrees = (n - 1.0) * m / (n * (m - 1.0));
+        let rho = ratio * ratio * degrees * (v1 / before.w) * (v1 / before.w) / v2;
+        let first = start + leg * ratio;
+        let second = first + leg * (ratio * slide) + offset * rho;
+        let mut points = vec![end, (first * v1).extend(v1), (second * v2).extend(v2)];
+        points.extend_from_slice(free);
+        crate::error::check_degree(points.len() - 1)?;
+        check_points(&points)?;
+        // C′ is n·wₙ₋₁/wₙ times the leg at the end, m·v₁/wₙ times that at the start.
+        let ratio = ratio * (v1 / before.w);
+        let interval = next_interval(self.interval(), ratio, self.degree(), points.len() - 1)?;
+        Ok(Self::checked(interval, points))
+    }
+}
+
 impl<P: ControlPoint> BezierPatch<P> {
+    /// The patch that goes on beyond an edge of this one with G¹ continuity and a ratio that varies along the edge: the
+    /// row of the edge, the row beyond it, `R + α·(Rₘ − Rₘ₋₁) + β·R′`, and the `free` rows.
+    ///
+    /// α and β are polynomials of the parameter of the edge over `[0, 1]`, given by their Bernstein coefficients; R is the
+    /// edge, R′ its derivative. With a and b the degrees of α and β, the rows have the degree `max(n + a, n − 1 + b)` along
+    /// the edge, and `free` must have that many control points a row and one more. No β (an empty slice) is β = 0; with
+    /// one number for α it is [`continued`](Self::continued). The tangent planes agree all along; the derivatives across
+    /// do not.
+    ///
+    /// ```
+    /// use casteljau_shape::{JoinReport, Patch, PatchEdge, SurfaceEdge, geom::glam::DVec3};
+    /// let p = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
+    /// let roof = Patch::new([1, 1], [p(0., 0., 0.), p(0., 1., 0.), p(1., 0., 1.), p(1., 1., 2.)])?;
+    /// let next = roof.continued_varying(PatchEdge::UEnd, &[1.0, 3.0], &[0.5, 0.0, -0.5], &[])?;
+    /// assert_eq!(next.degrees(), [1, 2]);
+    /// let (a, b) = (SurfaceEdge::of_patch(&roof, PatchEdge::UEnd)?, SurfaceEdge::of_patch(&next, PatchEdge::UStart)?);
+    /// assert!(JoinReport::along_edge(&a, &b, 9)?.angle.unwrap().value < 1e-6);
+    /// # Ok::<(), casteljau_shape::ShapeError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ShapeError::Construction`] unless all coefficients of α are positive and finite and those of β are finite;
+    /// otherwise those of [`continued`](Self::continued).
+    ///
+    /// Source: Farin, *Curves and Surfaces for CAGD*, 5th ed., sec. 21.2.
+    pub fn continued_varying(
+        &self,
+        edge: PatchEdge,
+        alpha: &[f64],
+        beta: &[f64],
+        free: &[P],
+    ) -> Result<Self, ShapeError> {
+        let (Some(&first), false) = (alpha.first(), beta.iter().any(|b| !b.is_finite())) else {
+            let value = beta.iter().copied().find(|b| !b.is_finite()).unwrap_or(0.0);
+            return Err(ShapeError::Construction { what: "coefficient along the edge", value });
+        };
+        alpha.iter().try_for_each(|&ratio| check_ratio(ratio))?;
+        let simple = self.continued(edge, 1.0, &[])?;
+        let n = simple.degrees()[1];
+        // The row of the edge, and the one beyond it for α = 1: their difference is the leg.
+        let (last, beyond) = simple.control_points().split_at(n + 1);
+        let legs: Vec<P> = last.iter().zip(beyond).map(|(&p, &q)| q - p).collect();
+        let slopes: Vec<P> = last.windows(2).map(|p| (p[1] - p[0]) * n as f64).collect();
+        let degree = (n + alpha.len() - 1).max((n + beta.len()).saturating_sub(2));
+        crate::error::check_degree(degree)?;
+        let raised = |points: &[P]| -> Result<Vec<P>, ShapeError> {
+            let mut out = vec![P::ZERO; degree + 1];
+            elevate(points, &mut out)?;
+            Ok(out)
+        };
+        let mut points = raised(last)?;
+        let mut second = points.clone();
+        let mut add = |factor: &[f64], row: &[P]| -> Result<(), ShapeError> {
+            if !factor.is_empty() && !row.is_empty() {
+                let product = raised(&product(factor, row))?;
+                second.iter_mut().zip(product).for_each(|(p, q)| *p = *p + q);
+            }
+            Ok(())
+        };
+        add(alpha, &legs)?;
+        add(beta, &slopes)?;
+        points.extend(second);
+        points.extend_from_slice(free);
+        let rows = points.len() / (degree + 1);
+        if rows * (degree + 1) != points.len() {
+            let needed = (rows + 1) * (degree + 1);
+            return Err(ShapeError::NetSize { degrees: [rows, degree], needed, given: points.len() });
+        }
+        crate::error::check_degree(rows - 1)?;
+        check_points(&points)?;
+        let [across, along] = simple.intervals();
+        // The derivatives across agree where the edge starts, up to β.
+        let across = Interval::new(0.0, across.length() * first * (rows - 1) as f64).unwrap_or(across);
+        Ok(Self::checked([across, along], [rows - 1, degree], points))
+    }
+
     /// The patch that goes on beyond an edge of this one with C¹ continuity: the row of the edge, the row beyond it,
     /// `Rₘ + ratio·(Rₘ − Rₘ₋₁)`, and the `free` rows, one after another.
     ///
@@ -151,6 +298,19 @@ fn next_interval(interval: Interval, ratio: f64, n: usize, m: usize) -> Result<I
     let length = interval.length() * (ratio * m as f64 / n as f64);
     Interval::new(interval.end(), interval.end() + length)
         .map_err(|_| ShapeError::Construction { what: "length of the next interval", value: length })
+}
+
+/// The Bernstein coefficients of a product: those of degree a times those of degree b,
+/// `Σ C(a,i) C(b,j) / C(a+b,i+j) · xᵢ yⱼ` over `i + j = k`.
+fn product<P: ControlPoint>(factor: &[f64], row: &[P]) -> Vec<P> {
+    let (a, b) = (factor.len() - 1, row.len() - 1);
+    let mut out = vec![P::ZERO; a + b + 1];
+    for (i, &x) in factor.iter().enumerate() {
+        for (j, &y) in row.iter().enumerate() {
+            out[i + j] = out[i + j] + y * (x * (binomial(a, i) / binomial(a + b, i + j) * binomial(b, j)));
+        }
+    }
+    out
 }
 
 fn check_ratio(ratio: f64) -> Result<(), ShapeError> {

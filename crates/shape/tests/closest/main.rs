@@ -6,3 +6,4 @@ mod cases;
 mod degenerate;
 mod minima;
 mod random;
+mod triangles;
