@@ -93,8 +93,8 @@ fn elevation<const V: usize>(seed: u64, rounds: usize) {
 
 #[test]
 fn elevation_is_exact_to_its_bound() {
-    elevation::<3>(61, 100);
-    elevation::<4>(62, 20);
+    elevation::<3>(61, 1000);
+    elevation::<4>(62, 300);
 }
 
 fn restriction<const V: usize>(seed: u64, rounds: usize, most: usize) {
@@ -144,9 +144,9 @@ fn restriction<const V: usize>(seed: u64, rounds: usize, most: usize) {
 
 #[test]
 fn restriction_is_the_blossom() {
-    restriction::<2>(70, 100, 8);
-    restriction::<3>(71, 50, 5);
-    restriction::<4>(72, 12, 3);
+    restriction::<2>(70, 1000, 8);
+    restriction::<3>(71, 500, 5);
+    restriction::<4>(72, 150, 3);
 }
 
 #[test]
@@ -252,9 +252,9 @@ fn products<const V: usize>(seed: u64, rounds: usize) {
 
 #[test]
 fn products_are_exact_to_their_bound() {
-    products::<2>(90, 300);
-    products::<3>(91, 150);
-    products::<4>(92, 40);
+    products::<2>(90, 1000);
+    products::<3>(91, 1000);
+    products::<4>(92, 300);
 }
 
 /// Powers of 1 stay 1 to degree 200, and points of 10¹⁰⁰ do not overflow.

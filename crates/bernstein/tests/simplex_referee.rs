@@ -47,12 +47,12 @@ fn values_over_triangles() {
 
 #[test]
 fn values_over_tetrahedra() {
-    values::<4>(12, 150, 40);
+    values::<4>(12, 1000, 40);
 }
 
 #[test]
 fn values_over_intervals() {
-    values::<2>(13, 300, 100);
+    values::<2>(13, 1000, 100);
 }
 
 fn partials<const V: usize>(seed: u64, cases: usize, most: usize) {
@@ -91,12 +91,12 @@ fn partials<const V: usize>(seed: u64, cases: usize, most: usize) {
 
 #[test]
 fn partials_over_triangles() {
-    partials::<3>(21, 300, 20);
+    partials::<3>(21, 1000, 20);
 }
 
 #[test]
 fn partials_over_tetrahedra() {
-    partials::<4>(22, 100, 10);
+    partials::<4>(22, 1000, 10);
 }
 
 /// Blossoms, and directional derivatives as blossoms with vectors among the arguments.
@@ -137,12 +137,12 @@ fn blossoms<const V: usize>(seed: u64, cases: usize) {
 
 #[test]
 fn blossoms_over_triangles() {
-    blossoms::<3>(31, 500);
+    blossoms::<3>(31, 1000);
 }
 
 #[test]
 fn blossoms_over_tetrahedra() {
-    blossoms::<4>(32, 200);
+    blossoms::<4>(32, 1000);
 }
 
 #[test]
@@ -162,7 +162,7 @@ fn the_last_barycentric_keeps_its_digits() {
 #[test]
 fn wedges() {
     let mut hunter = Hunter::new(51);
-    for case in 0..200 {
+    for case in 0..1000 {
         let (n, o) = if case == 0 { (12, 12) } else { (hunter.below(5), hunter.below(5)) };
         let order = if case == 0 { 1 } else { hunter.below(4) };
         let points = hunter.numbers(WedgeNet::<f64>::count([n, o]));

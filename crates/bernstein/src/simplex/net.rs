@@ -126,7 +126,8 @@ impl<'a, P: Point, const V: usize> SimplexNet<'a, P, V> {
     /// order is the greatest k with [`simplex_count`]`::<V>(k) ≤ out.len()`, and places beyond are set to zero.
     /// Differences are taken of the control points themselves, so that a shape far from the origin keeps the
     /// digits of its derivatives. Error: at most `4(n + 2k + 2)·u·scale`, scale being the sum of the absolute
-    /// contributions. Cost: for each derivative, Π(αₐ + 1) points are read for each β.
+    /// contributions. Cost: for each derivative k differences of the net, on the stack, and a value; nets of
+    /// more than 256 points are not copied, and Π(αₐ + 1) of their points are read for each β.
     pub fn partials(&self, lambda: [f64; V], out: &mut [P]) {
         let Some(order) = (0..).take_while(|&k| simplex_count::<V>(k) <= out.len()).last() else {
             out.fill(P::ZERO);
@@ -191,9 +192,49 @@ pub(crate) fn partial<P: Point, const V: usize>(
                 Some(axis) if total == 1 => form(lower, lambda, |index: [usize; V]| {
                     at(simplex_index(raised(index, axis))) - at(simplex_index(raised(index, V - 1)))
                 }),
-                _ => form(lower, lambda, |index| difference(index, orders, work, at)),
+                _ => match simplex_count::<V>(n) {
+                    ..=20 => by_differences(n, lambda, orders, [P::ZERO; 20], at),
+                    21..=64 => by_differences(n, lambda, orders, [P::ZERO; 64], at),
+                    65..=256 => by_differences(n, lambda, orders, [P::ZERO; 256], at),
+                    _ => form(lower, lambda, |index| difference(index, orders, work, at)),
+                },
             };
             derivative * factor
+        }
+    }
+}
+
+/// `Σ (n−k)!/β! λ^β Δ^α P_β`, `net` having room for all points.
+fn by_differences<P: Point, const V: usize, const ROOM: usize>(
+    n: usize,
+    lambda: [f64; V],
+    orders: &[usize],
+    mut net: [P; ROOM],
+    at: &impl Fn(usize) -> P,
+) -> P {
+    for (place, p) in net.iter_mut().enumerate().take(simplex_count::<V>(n)) {
+        *p = at(place);
+    }
+    let mut lower = n;
+    for (axis, &order) in orders.iter().enumerate() {
+        for _ in 0..order {
+            lower -= 1;
+            difference_along::<P, V>(lower, axis, &mut net);
+        }
+    }
+    value(lower, lambda, &|place| net[place])
+}
+
+/// `Δₐ P_β` for all β of degree `lower`, in place: what is read stands at the place written or above. Points that
+/// differ in the last two entries only lie side by side, and so do the two lines that they are differences of.
+fn difference_along<P: Point, const V: usize>(lower: usize, axis: usize, net: &mut [P]) {
+    let mut place = 0;
+    for first in MultiIndices::<V>::on_face(lower, std::array::from_fn(|vertex| vertex), V - 1) {
+        let ahead = simplex_index(raised(first, axis));
+        let last = simplex_index(raised(first, V - 2)) + 1;
+        for q in 0..=first[V - 2] {
+            net[place] = net[ahead + q] - net[last + q];
+            place += 1;
         }
     }
 }

@@ -1,6 +1,8 @@
 //! Sums and products of polynomials over a simplex.
 
-use super::index::{multi_indices, simplex_count, simplex_index};
+use std::borrow::Cow;
+
+use super::index::{MultiIndices, simplex_count, simplex_index};
 use super::net::SimplexNet;
 use crate::line::check_length;
 use crate::{BernsteinError, MAX_DEGREE, Point, binomial};
@@ -26,8 +28,8 @@ impl<P: Point, const V: usize> SimplexNet<'_, P, V> {
     ///
     /// With numbers for points it is the product of two scalars. The weights are those of drawing without
     /// replacement and add up to 1; no intermediate value exceeds C(n+m, n) times the result's scale. Error of
-    /// each point: at most `4(n+m+2)·u` times the same sum of absolute values. Cost: one weight and one
-    /// multiplication a component for each pair of points.
+    /// each point: at most `4(n+m+2)·u` times the same sum of absolute values. Cost: two multiplications a
+    /// component for each pair of points; from degree 32 on (n+1)(m+1) weights are allocated.
     ///
     /// # Errors
     /// [`BernsteinError::Degree`] where n + m is above [`MAX_DEGREE`], [`BernsteinError::BufferLength`] unless
@@ -69,17 +71,116 @@ impl<P: Point, const V: usize> SimplexNet<'_, P, V> {
         multiply: impl Fn(P, Q) -> R,
         out: &mut [R],
     ) -> Result<(), BernsteinError> {
-        let n = self.degree();
-        let degree = product_degree(n, factor.degree())?;
+        let (n, m) = (self.degree(), factor.degree());
+        let degree = product_degree(n, m)?;
         check_length("out", out.len(), simplex_count::<V>(degree))?;
-        let whole = binomial(degree, n);
-        for (product, index) in out.iter_mut().zip(multi_indices::<V>(degree)) {
-            let sum = shares(n, index, &mut |own, others| {
-                multiply(self.at(simplex_index(own)), factor.at(simplex_index(others)))
-            });
-            *product = sum / whole;
+        let ways = Ways::new(n, m);
+        let whole = ways.row(n)[m];
+        // `Σ C(j+l, j) C(r−j+s−l, r−j) Pⱼ fₗ` over j + l = k, of lines with r + 1 and s + 1 points.
+        let line = |own: [usize; V], others: [usize; V], sum: &mut [R]| {
+            let (r, s) = (own[V - 2], others[V - 2]);
+            let factors = line_at(factor, others);
+            for (j, &p) in line_at(self, own).iter().enumerate() {
+                let (last, but_one) = (&ways.row(j)[..=s], &ways.row(r - j)[..=s]);
+                let weights = last.iter().zip(but_one.iter().rev()).map(|(a, b)| a * b);
+                for ((sum, &f), weight) in sum[j..].iter_mut().zip(factors).zip(weights) {
+                    *sum = *sum + multiply(p, f) * weight;
+                }
+            }
+        };
+        let mut rest = out;
+        for first in MultiIndices::on_face(degree, std::array::from_fn(|vertex| vertex), V - 1) {
+            let (sum, later) = rest.split_at_mut(first[V - 2] + 1);
+            sum.fill(R::ZERO);
+            add_shares(0, n, [0; V], first, &ways, &line, sum, later);
+            sum.iter_mut().for_each(|product| *product = *product / whole);
+            rest = later;
         }
         Ok(())
+    }
+}
+
+/// The points of a net that differ in the last two entries only, from the one with a multi-index that ends in 0 on.
+fn line_at<'a, P: Point, const V: usize>(net: &SimplexNet<'a, P, V>, first: [usize; V]) -> &'a [P] {
+    let start = simplex_index(first);
+    net.points().get(start..=start + first[V - 2]).unwrap_or_default()
+}
+
+/// Adds to `sum`, the points `others`, …, of a line, `Σ Π C(γₐ, βₐ) line(β, γ−β)` over all ways of sharing n among
+/// the entries of β from `axis` on, the last two of which count as one.
+///
+/// Sums of sums, one for each entry, so that a term takes part in at most n + V additions. What is added up
+/// stands in `work`: for each entry above 0 there is a longer line among those of the net after `sum`.
+#[allow(clippy::too_many_arguments)]
+fn add_shares<R: Point, const V: usize>(
+    axis: usize,
+    n: usize,
+    mut own: [usize; V],
+    mut others: [usize; V],
+    ways: &Ways,
+    line: &impl Fn([usize; V], [usize; V], &mut [R]),
+    sum: &mut [R],
+    work: &mut [R],
+) {
+    let all = others[axis];
+    if axis + 2 == V {
+        (own[axis], others[axis]) = (n, all - n);
+        return line(own, others, sum);
+    }
+    if all == 0 {
+        return add_shares(axis + 1, n, own, others, ways, line, sum, work);
+    }
+    let later: usize = others[axis + 1..].iter().sum();
+    let (part, work) = work.split_at_mut(sum.len());
+    for share in n.saturating_sub(later)..=n.min(all) {
+        (own[axis], others[axis]) = (share, all - share);
+        part.fill(R::ZERO);
+        add_shares(axis + 1, n - share, own, others, ways, line, part, work);
+        let weight = ways.row(share)[all - share];
+        for (sum, &p) in sum.iter_mut().zip(&*part) {
+            *sum = *sum + p * weight;
+        }
+    }
+}
+
+/// The numbers of ways to mix i things with k others, `C(i+k, i)`, for i ≤ n, k ≤ m: Pascal's triangle on its side.
+///
+/// Made by additions of positive numbers: exact to i + k = 56, relative error at most (i + k − 56)·u beyond.
+struct Ways {
+    table: Cow<'static, [f64]>,
+    columns: usize,
+}
+
+/// Degrees below this one find their numbers in a table.
+const FEW: usize = 32;
+
+static FEW_WAYS: [f64; FEW * FEW] = {
+    let (mut table, mut place) = ([1.0; FEW * FEW], FEW);
+    while place < FEW * FEW {
+        if place % FEW > 0 {
+            table[place] = table[place - FEW] + table[place - 1];
+        }
+        place += 1;
+    }
+    table
+};
+
+impl Ways {
+    fn new(n: usize, m: usize) -> Self {
+        if n.max(m) < FEW {
+            return Self { table: Cow::Borrowed(&FEW_WAYS), columns: FEW };
+        }
+        let columns = m + 1;
+        let mut table = vec![1.0; (n + 1) * columns];
+        for place in (columns..table.len()).filter(|place| place % columns > 0) {
+            table[place] = table[place - columns] + table[place - 1];
+        }
+        Self { table: Cow::Owned(table), columns }
+    }
+
+    #[inline]
+    fn row(&self, i: usize) -> &[f64] {
+        &self.table[i * self.columns..][..self.columns]
     }
 }
 

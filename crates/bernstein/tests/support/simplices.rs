@@ -1,11 +1,12 @@
 //! The referee over simplices and wedges: sums over multi-indices in exact rational arithmetic.
 #![allow(dead_code)] // every test file uses its own share of this
 
-use num_traits::{One, Signed, Zero};
+use num_bigint::BigInt;
+use num_traits::{Signed, Zero};
 
 use casteljau_bernstein::last_barycentric;
 
-use super::exact::{Hunter, Q, exact, factorial, integer, powers};
+use super::exact::{Hunter, Q, common, exact, integer};
 
 /// All multi-indices of a degree with so many entries, descending lexicographically.
 pub fn indices(vertices: usize, degree: usize) -> Vec<Vec<usize>> {
@@ -29,14 +30,28 @@ pub fn place(index: &[usize]) -> usize {
 }
 
 pub fn multinomial(index: &[usize]) -> Q {
-    index.iter().fold(factorial(index.iter().sum()), |c, &entry| c / factorial(entry))
+    let (mut ways, mut total) = (BigInt::from(1), 0);
+    for entry in index {
+        for j in 1..=*entry {
+            total += 1;
+            ways = ways * total / j;
+        }
+    }
+    Q::from_integer(ways)
 }
 
 /// All `n!/β! λ^β`.
 pub fn basis(degree: usize, lambda: &[Q]) -> Vec<Q> {
-    let powers: Vec<Vec<Q>> = lambda.iter().map(|l| self::powers(l, degree)).collect();
+    let (lambda, below) = common(lambda);
+    let powers = |l: &BigInt| -> Vec<BigInt> {
+        std::iter::successors(Some(BigInt::from(1)), |p| Some(p * l)).take(degree + 1).collect()
+    };
+    let powers: Vec<_> = lambda.iter().map(powers).collect();
+    let below = num_traits::pow(below, degree);
     let product = |index: &Vec<usize>| {
-        index.iter().zip(&powers).map(|(&b, p)| p[b].clone()).fold(multinomial(index), |a, b| a * b)
+        let ways = multinomial(index).numer().clone();
+        let product = index.iter().zip(&powers).fold(ways, |product, (&b, p)| product * &p[b]);
+        Q::new_raw(product, below.clone())
     };
     indices(lambda.len(), degree).iter().map(product).collect()
 }
@@ -49,17 +64,19 @@ pub fn absolute(lambda: &[Q]) -> Vec<Q> {
 pub fn step(points: &[Q], degree: usize, combination: &[Q]) -> Vec<Q> {
     let vertices = combination.len();
     let all = indices(vertices, degree);
+    let ((points, below), (combination, below_all)) = (common(points), common(combination));
+    let below = below * below_all;
     let at = |index: &[usize]| &points[all.binary_search_by(|other| index.cmp(other)).unwrap()];
     indices(vertices, degree - 1)
         .into_iter()
         .map(|mut index| {
-            let mut sum = Q::zero();
+            let mut sum = BigInt::from(0);
             for (vertex, c) in combination.iter().enumerate().filter(|(_, c)| !c.is_zero()) {
                 index[vertex] += 1;
                 sum += at(&index) * c;
                 index[vertex] -= 1;
             }
-            sum
+            Q::new_raw(sum, below.clone())
         })
         .collect()
 }
@@ -95,7 +112,7 @@ pub fn differentiated(points: &[Q], degree: usize, vertices: usize, orders: &[us
 /// Contributions below this may vanish; expressed as an addition to a scale.
 pub fn floor(points: &[Q]) -> Q {
     let largest = points.iter().map(Signed::abs).max().unwrap_or_else(Q::zero);
-    (largest + Q::one()) * exact(1e-290) / exact(super::U)
+    (largest + integer(1)) * exact(1e-290) / exact(super::U)
 }
 
 impl Hunter {
