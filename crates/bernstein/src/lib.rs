@@ -3,7 +3,7 @@
 //! A polynomial of degree n is held by its control points, `p(t) = Σ Bᵢⁿ(t) Pᵢ` with
 //! `Bᵢⁿ(t) = C(n,i) tⁱ (1−t)ⁿ⁻ⁱ`. Every kernel is generic in the kind of [`Point`] (numbers, or glam's vectors;
 //! rational shapes use `DVec4`) and writes into buffers that the caller owns. Kernels allocate nothing, but for
-//! those that say so: composition, extremes, roots, matrices, and products of intervals and tensor products from degree 32 on.
+//! those that say so: composition, extremes, roots, matrices, and products from degree 32 on.
 //!
 //! **Batches.** Thousands of parameters or nets at once go through [`batch`], with vector instructions and on all cores.
 //!

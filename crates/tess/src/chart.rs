@@ -63,7 +63,9 @@ impl Chart {
     pub fn side_name(&self, side: usize) -> usize {
         match self.map {
             Map::Pole(collapsed) => (collapsed + 1 + side) % 4,
-            _ => side,
+            // The polygon's sides run towards the corners, those of the shape lie across from them.
+            Map::Triangle => (side + 1) % 3,
+            Map::Rectangle(_) => side,
         }
     }
 

@@ -7,7 +7,8 @@ use casteljau_shape::{Patch, PowerPatch, RationalPatch, RationalTriangle, Triang
 ///
 /// Sides are numbered from 0, counter-clockwise seen from the tip of the normal `∂u × ∂v`:
 /// - of a rectangle `[a, b] × [c, d]`: 0 is v = c, 1 is u = b, 2 is v = d, 3 is u = a;
-/// - of a triangle: 0 is λ₂ = 0, 1 is λ₃ = 0, 2 is λ₁ = 0;
+/// - of a triangle as by [`edge`](casteljau_shape::BezierTriangle::edge): side i lies across from vertex i, so that 0
+///   is λ₁ = 0, 1 is λ₂ = 0, 2 is λ₃ = 0;
 /// - of a GB patch: as its ribbons.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]

@@ -118,6 +118,22 @@ fn spheres_are_closed_without_degenerate_triangles_at_the_poles() {
     }
 }
 
+/// The side of a triangle that a neighbour leaves open has the number of its edge.
+#[test]
+fn sides_of_triangles_are_numbered_as_edges() {
+    let triangle = Triangle::new(1, [DVec3::X, DVec3::Y, DVec3::ZERO]).unwrap();
+    for edge in 0..3 {
+        let shared = triangle.edge(edge).unwrap();
+        let [start, end] = [shared.start(), shared.end()];
+        let beside = Triangle::new(1, [end, start, start + end + DVec3::Z]).unwrap();
+        let (_, report) =
+            mesh(&[Face::from(&triangle), Face::from(&beside)], &TessellationOptions::resolution(3));
+        let mut open: Vec<_> = report.open_sides.iter().filter(|s| s.patch == 0).map(|s| s.side).collect();
+        open.sort_unstable();
+        assert_eq!(open, (0..3).filter(|&side| side != edge).collect::<Vec<_>>());
+    }
+}
+
 #[test]
 fn a_torus_is_closed() {
     check_body("torus", &RationalPatch::torus(DVec3::ONE, DVec3::new(1.0, 2.0, 2.0), 2.0, 0.7).unwrap(), 0);

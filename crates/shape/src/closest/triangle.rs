@@ -43,7 +43,7 @@ pub struct TriangleProjector {
 impl TriangleProjector {
     /// Prepares a polynomial or rational triangle: cuts it into at most 512 pieces, and each edge into at most 64.
     ///
-    /// Cost: that of a patch of degree n × n, 3 ms for a cubic triangle.
+    /// Cost: that of a patch of degree n × n.
     ///
     /// # Errors
     /// [`ShapeError::Weight`] unless all weights have one sign.
@@ -75,8 +75,8 @@ impl TriangleProjector {
     /// The closest point of the whole triangle, edges and vertices included, with a lower bound of the distance
     /// as its certificate; the parameters are (λ₁, λ₂).
     ///
-    /// Of several closest points one is given, always the same. Cost: 10 µs for a cubic triangle, more where the
-    /// tree does not decide.
+    /// Of several closest points one is given, always the same. Cost: that of a patch of degree n × n, more where
+    /// the tree does not decide.
     ///
     /// # Errors
     /// [`ShapeError::Query`] for a q that is not finite or beyond
@@ -92,7 +92,7 @@ impl TriangleProjector {
     /// The local minimum of the distance that Newton's method reaches from `start`, (λ₁, λ₂).
     ///
     /// Kept inside the triangle and from climbing; says whether it converged. For a start close to the closest
-    /// point. Cost: a jet of order 2 a step, some 2 µs for a cubic triangle.
+    /// point. Cost: a jet of order 2 a step.
     ///
     /// # Errors
     /// [`ShapeError::Query`] as for [`closest_point`](Self::closest_point), [`ShapeError::Parameter`] for a
@@ -123,8 +123,8 @@ impl TriangleProjector {
     /// All local minima of the distance over the triangle, edges and vertices included, each proved and isolated.
     ///
     /// The uncertainty of a minimum on an edge is that of its place along the edge. An edge that is collapsed to a
-    /// point counts as one minimum, given at its middle, if every direction leads away from q there. Cost: some
-    /// 100 µs for a cubic triangle; up to 20,000 pieces are looked at, and as many on each edge.
+    /// point counts as one minimum, given at its middle, if every direction leads away from q there. At most
+    /// 20,000 pieces are looked at, and as many on each edge.
     ///
     /// # Errors
     /// [`ShapeError::Query`] as for [`closest_point`](Self::closest_point).
