@@ -99,7 +99,11 @@ impl SideSamples {
             Density::Resolution(count) if count > limit => return Err(NoSamples::TooMany(count as f64)),
             Density::Resolution(count) => ((1..count).map(|i| snap(i as f64 / count as f64)).collect(), 0.0),
             Density::Tolerance(tolerance) if tolerance > 0.0 && tolerance.is_finite() => {
-                adapt(&curve, tolerance, limit)?
+                if key.symmetric {
+                    there_and_back(&curve, tolerance, limit)?
+                } else {
+                    adapt(&curve, tolerance, limit)?
+                }
             }
             Density::Tolerance(_) => return Err(NONSENSE),
         };
@@ -110,7 +114,15 @@ impl SideSamples {
             points.push(curve.point(t)? + DVec3::ZERO);
         }
         points.push(last);
-        let parameters = std::iter::once(0.0).chain(parameters).chain([1.0]).collect();
+        let mut parameters: Vec<f64> = std::iter::once(0.0).chain(parameters).chain([1.0]).collect();
+        if key.symmetric {
+            // The way back is the way there, to the bit.
+            let last = points.len() - 1;
+            for (there, back) in (0..points.len() / 2).map(|i| (i, last - i)) {
+                points[back] = points[there];
+                parameters[back] = 1.0 - parameters[there];
+            }
+        }
         Ok(Self { parameters, points, chord_error })
     }
 
@@ -163,8 +175,19 @@ fn adapt(curve: &SideCurve, tolerance: f64, limit: usize) -> Result<(Vec<f64>, f
 
 /// Halving, for curves that the density does not understand.
 fn halve(curve: &SideCurve, tolerance: f64, limit: usize) -> Result<(Vec<f64>, f64), NoSamples> {
+    halve_to(1.0, curve, tolerance, limit)
+}
+
+/// For a curve that runs back on itself, C(t) = C(1−t): the parameters of one half serve the other.
+fn there_and_back(curve: &SideCurve, tolerance: f64, limit: usize) -> Result<(Vec<f64>, f64), NoSamples> {
+    let (there, error) = halve_to(0.5, curve, tolerance, limit / 2)?;
+    let back: Vec<f64> = there.iter().rev().skip(1).map(|t| 1.0 - t).collect();
+    Ok(([there, back].concat(), error))
+}
+
+fn halve_to(end: f64, curve: &SideCurve, tolerance: f64, limit: usize) -> Result<(Vec<f64>, f64), NoSamples> {
     let (mut parameters, mut largest) = (Vec::new(), 0.0f64);
-    let mut todo = vec![[0.0, 1.0]];
+    let mut todo = vec![[0.0, end]];
     while let Some([a, b]) = todo.pop() {
         let error = curve.segment_bound(a, b)?;
         if error > tolerance && b - a > 2.0 * CLOSEST {
