@@ -35,7 +35,7 @@ impl From<ShapeError> for NoSamples {
 /// Points along a curve that depend on the curve alone, not on the patch it bounds nor on the way it is run.
 ///
 /// Curves C(t) and C(1−t) give the same points to the bit, in opposite order: of the two lists of control points the
-/// lexicographically smaller one is sampled. Zeros have no sign there. The ends are the end points of the control net.
+/// lexicographically smaller one is sampled, and of a curve that runs back on itself one half. Zeros have no sign there. The ends are the end points of the control net.
 /// A curve with the same course but other control points, one raised in degree for example, is another curve: its points
 /// agree with these to rounding only.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,11 +99,8 @@ impl SideSamples {
             Density::Resolution(count) if count > limit => return Err(NoSamples::TooMany(count as f64)),
             Density::Resolution(count) => ((1..count).map(|i| snap(i as f64 / count as f64)).collect(), 0.0),
             Density::Tolerance(tolerance) if tolerance > 0.0 && tolerance.is_finite() => {
-                if key.symmetric {
-                    there_and_back(&curve, tolerance, limit)?
-                } else {
-                    adapt(&curve, tolerance, limit)?
-                }
+                let place = if key.symmetric { there_and_back } else { adapt };
+                place(&curve, tolerance, limit)?
             }
             Density::Tolerance(_) => return Err(NONSENSE),
         };
@@ -170,22 +167,18 @@ fn adapt(curve: &SideCurve, tolerance: f64, limit: usize) -> Result<(Vec<f64>, f
         }
         wanted = wanted.ceil() * (error / tolerance).sqrt().clamp(1.05, 2.0);
     }
-    halve(curve, tolerance, limit)
-}
-
-/// Halving, for curves that the density does not understand.
-fn halve(curve: &SideCurve, tolerance: f64, limit: usize) -> Result<(Vec<f64>, f64), NoSamples> {
-    halve_to(1.0, curve, tolerance, limit)
+    halve(curve, 1.0, tolerance, limit)
 }
 
 /// For a curve that runs back on itself, C(t) = C(1−t): the parameters of one half serve the other.
 fn there_and_back(curve: &SideCurve, tolerance: f64, limit: usize) -> Result<(Vec<f64>, f64), NoSamples> {
-    let (there, error) = halve_to(0.5, curve, tolerance, limit / 2)?;
+    let (there, error) = halve(curve, 0.5, tolerance, limit / 2)?;
     let back: Vec<f64> = there.iter().rev().skip(1).map(|t| 1.0 - t).collect();
     Ok(([there, back].concat(), error))
 }
 
-fn halve_to(end: f64, curve: &SideCurve, tolerance: f64, limit: usize) -> Result<(Vec<f64>, f64), NoSamples> {
+/// Halving of `[0, end]`, for curves that the density does not understand; the parameters above 0 and below 1.
+fn halve(curve: &SideCurve, end: f64, tolerance: f64, limit: usize) -> Result<(Vec<f64>, f64), NoSamples> {
     let (mut parameters, mut largest) = (Vec::new(), 0.0f64);
     let mut todo = vec![[0.0, end]];
     while let Some([a, b]) = todo.pop() {

@@ -125,6 +125,26 @@ fn curve() -> impl Strategy<Value = Curve> {
         .prop_map(|points| Curve::new(points.into_iter().map(DVec3::from).collect::<Vec<_>>()).unwrap())
 }
 
+/// C(t) = C(1−t): the curve and its reverse are one, and so the samples read the same both ways.
+#[test]
+fn a_curve_that_runs_back_on_itself_has_the_same_samples_both_ways() {
+    for height in [1.0, 0.1, 1.0 / 3.0] {
+        let [a, b, c] = [DVec3::splat(0.7), DVec3::new(0.3, 1.1, height), DVec3::new(-0.2, height, 0.9)];
+        for net in [vec![DVec3::ZERO, DVec3::Z * height, DVec3::ZERO], vec![a, b, b, a], vec![a, b, c, b, a]]
+        {
+            let curve = Curve::new(net).unwrap();
+            for density in
+                [1e-2, 1e-4, 1e-5].map(Density::Tolerance).into_iter().chain([3, 10].map(Density::Resolution))
+            {
+                let samples = SideSamples::new(&curve, density, 100_000).unwrap();
+                assert!(samples.points().iter().eq(samples.points().iter().rev()), "{curve:?} {density:?}");
+                let back: Vec<f64> = samples.parameters().iter().rev().map(|t| 1.0 - t).collect();
+                assert_eq!(samples.parameters(), back);
+            }
+        }
+    }
+}
+
 /// Distance from p to the segment ab.
 fn distance(p: DVec3, a: DVec3, b: DVec3) -> f64 {
     let along = b - a;

@@ -1,6 +1,6 @@
 //! The neighbour of a curve or patch that joins as wanted.
 
-use casteljau_bernstein::{binomial, elevate};
+use casteljau_bernstein::{elevate, product};
 use casteljau_geom::Interval;
 use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
 
@@ -111,7 +111,7 @@ impl RationalCurve {
     /// coincide, and unless `wₙ₋₁`, `v₁` and `v₂` have the sign of `wₙ`; [`ShapeError::Degree`],
     /// [`ShapeError::Coordinate`].
     ///
-    /// Source: Farin, *Curves and Surfaces for CAGD*, 5th ed., sec. 12.6 for the curvature.
+    /// Source: Farin, *Curves and Surfaces for CAGD*, 5th ed., the chapter on rational curves, for the curvature.
     pub fn continued_with_curvature(
         &self,
         ratio: f64,
@@ -182,7 +182,7 @@ impl<P: ControlPoint> BezierPatch<P> {
     /// [`ShapeError::Construction`] unless all coefficients of α are positive and finite and those of β are finite;
     /// otherwise those of [`continued`](Self::continued).
     ///
-    /// Source: Farin, *Curves and Surfaces for CAGD*, 5th ed., sec. 21.2.
+    /// Source: Farin, *Curves and Surfaces for CAGD*, 5th ed., the chapter on geometric continuity of surfaces.
     pub fn continued_varying(
         &self,
         edge: PatchEdge,
@@ -212,8 +212,9 @@ impl<P: ControlPoint> BezierPatch<P> {
         let mut second = points.clone();
         let mut add = |factor: &[f64], row: &[P]| -> Result<(), ShapeError> {
             if !factor.is_empty() && !row.is_empty() {
-                let product = raised(&product(factor, row))?;
-                second.iter_mut().zip(product).for_each(|(p, q)| *p = *p + q);
+                let mut term = vec![P::ZERO; factor.len() + row.len() - 1];
+                product(factor, row, &mut term)?;
+                second.iter_mut().zip(raised(&term)?).for_each(|(p, q)| *p = *p + q);
             }
             Ok(())
         };
@@ -298,19 +299,6 @@ fn next_interval(interval: Interval, ratio: f64, n: usize, m: usize) -> Result<I
     let length = interval.length() * (ratio * m as f64 / n as f64);
     Interval::new(interval.end(), interval.end() + length)
         .map_err(|_| ShapeError::Construction { what: "length of the next interval", value: length })
-}
-
-/// The Bernstein coefficients of a product: those of degree a times those of degree b,
-/// `Σ C(a,i) C(b,j) / C(a+b,i+j) · xᵢ yⱼ` over `i + j = k`.
-fn product<P: ControlPoint>(factor: &[f64], row: &[P]) -> Vec<P> {
-    let (a, b) = (factor.len() - 1, row.len() - 1);
-    let mut out = vec![P::ZERO; a + b + 1];
-    for (i, &x) in factor.iter().enumerate() {
-        for (j, &y) in row.iter().enumerate() {
-            out[i + j] = out[i + j] + y * (x * (binomial(a, i) / binomial(a + b, i + j) * binomial(b, j)));
-        }
-    }
-    out
 }
 
 fn check_ratio(ratio: f64) -> Result<(), ShapeError> {

@@ -1,20 +1,41 @@
 //! All local minima: against the minima of fine samples, and cases where they are known.
 
 use casteljau_shape::geom::glam::{DVec3, DVec4};
-use casteljau_shape::{Curve, CurveProjector, LocalMinima};
+use casteljau_shape::{Curve, CurveProjector, LocalMinima, Projection};
 
 use crate::brute::{curve, patch};
 use crate::cases::net;
 use crate::random::Random;
 
 /// Whether parameters lie within `reach` of a minimum or in an unresolved box.
-fn accounted<const D: usize>(found: &LocalMinima<D>, at: [f64; D], reach: f64) -> bool {
+pub fn accounted<const D: usize>(found: &LocalMinima<D>, at: [f64; D], reach: f64) -> bool {
     let near = |x: [f64; D]| (0..D).all(|k| (x[k] - at[k]).abs() <= reach);
     found.minima.iter().any(|m| near(m.parameters))
         || found
             .unresolved
             .iter()
             .any(|b| (0..D).all(|k| b[k][0] - reach <= at[k] && at[k] <= b[k][1] + reach))
+}
+
+/// Each minimum of a surface is smaller than its surroundings, and the least of them is the closest point. `inside`
+/// gives the point at the place of the domain nearest to a place.
+pub fn each_is_least(
+    found: &LocalMinima<2>,
+    global: &Projection<2>,
+    q: DVec3,
+    inside: impl Fn([f64; 2]) -> DVec3,
+) {
+    for m in &found.minima {
+        assert!(m.uncertainty.iter().all(|&r| r < 1e-5), "{m:?}");
+        for k in 0..16 {
+            let (sin, cos) = (f64::from(k) * std::f64::consts::FRAC_PI_8).sin_cos();
+            let near = inside([m.parameters[0] + 1e-5 * cos, m.parameters[1] + 1e-5 * sin]);
+            assert!(near.distance(q) >= m.distance - 1e-14, "{m:?}");
+        }
+    }
+    let least = found.minima.first().map_or(f64::INFINITY, |m| m.distance);
+    assert!(least <= global.distance + 1e-13 || !found.unresolved.is_empty(), "{global:?} {found:?}");
+    assert!(least >= global.lower_bound);
 }
 
 /// Each minimum is smaller than its surroundings; each minimum among samples is accounted for.
@@ -34,22 +55,8 @@ fn patches() {
         minima += found.minima.len();
         // Weights of six orders make parts of a patch nearly singular, where rounding decides.
         unresolved += if kind == 2 { 0 } else { found.unresolved.len() };
-        for m in &found.minima {
-            assert!(m.uncertainty.iter().all(|&r| r < 1e-5), "{shape}: {m:?}");
-            for k in 0..16 {
-                let (sin, cos) = (f64::from(k) * std::f64::consts::FRAC_PI_8).sin_cos();
-                let around = [m.parameters[0] + 1e-5 * cos, m.parameters[1] + 1e-5 * sin];
-                let near = net.point(around.map(|x| x.clamp(0.0, 1.0)));
-                assert!(near.distance(q) >= m.distance - 1e-14, "{shape}: {m:?}");
-            }
-        }
-        let global = projector.closest_point(q).unwrap();
-        let least = found.minima.first().map_or(f64::INFINITY, |m| m.distance);
-        assert!(
-            least <= global.distance + 1e-13 || !found.unresolved.is_empty(),
-            "{shape}: {global:?} {found:?}"
-        );
-        assert!(least >= global.lower_bound);
+        let inside = |at: [f64; 2]| net.point(at.map(|x| x.clamp(0.0, 1.0)));
+        each_is_least(&found, &projector.closest_point(q).unwrap(), q, inside);
         let sample = |i: usize, j: usize| net.point([i, j].map(|i| i as f64 / N as f64)).distance(q);
         let grid: Vec<Vec<f64>> = (0..=N).map(|i| (0..=N).map(|j| sample(i, j)).collect()).collect();
         for i in 0..=N {

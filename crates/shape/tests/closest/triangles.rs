@@ -4,10 +4,9 @@
 use casteljau_shape::bernstein::{TriangleNet, last_barycentric};
 use casteljau_shape::geom::UNIT_ROUNDOFF;
 use casteljau_shape::geom::glam::{DVec3, DVec4, Vec4Swizzles};
-use casteljau_shape::{
-    LocalMinima, ParametricSurface, RationalTriangle, ShapeError, Triangle, TriangleProjector,
-};
+use casteljau_shape::{ParametricSurface, RationalTriangle, ShapeError, Triangle, TriangleProjector};
 
+use crate::minima::{accounted, each_is_least};
 use crate::random::Random;
 
 const GRID: usize = 24;
@@ -114,8 +113,8 @@ fn net(random: &mut Random, kind: usize, degree: usize) -> Net {
             // An edge that is a point.
             let edge = random.below(3);
             let common = random.point();
-            for (p, index) in points.iter_mut().zip(&indices).filter(|(_, index)| index[edge] == 0) {
-                *p = if index[edge] == 0 { common } else { *p };
+            for (p, _) in points.iter_mut().zip(&indices).filter(|(_, index)| index[edge] == 0) {
+                *p = common;
             }
             weights.iter_mut().for_each(|w| *w = random.spread(-1.0, 1.0));
         }
@@ -235,15 +234,6 @@ fn good_starts_converge() {
     assert!(found > 950, "{found} of 1000");
 }
 
-fn accounted(found: &LocalMinima<2>, at: [f64; 2], reach: f64) -> bool {
-    let near = |x: [f64; 2]| (0..2).all(|k| (x[k] - at[k]).abs() <= reach);
-    found.minima.iter().any(|m| near(m.parameters))
-        || found
-            .unresolved
-            .iter()
-            .any(|b| (0..2).all(|k| b[k][0] - reach <= at[k] && at[k] <= b[k][1] + reach))
-}
-
 #[test]
 fn all_minima() {
     const N: usize = 100;
@@ -259,22 +249,11 @@ fn all_minima() {
         assert_eq!(found, projector.local_minima(q).unwrap());
         minima += found.minima.len();
         unresolved += if kind == 2 { 0 } else { found.unresolved.len() };
-        for m in &found.minima {
-            assert!(m.uncertainty.iter().all(|&r| r < 1e-5), "{shape}: {m:?}");
-            for k in 0..16 {
-                let (sin, cos) = (f64::from(k) * std::f64::consts::FRAC_PI_8).sin_cos();
-                let u = (m.parameters[0] + 1e-5 * cos).clamp(0.0, 1.0);
-                let near = net.point([u, (m.parameters[1] + 1e-5 * sin).clamp(0.0, 1.0 - u)]);
-                assert!(near.distance(q) >= m.distance - 1e-14, "{shape}: {m:?}");
-            }
-        }
-        let global = projector.closest_point(q).unwrap();
-        let least = found.minima.first().map_or(f64::INFINITY, |m| m.distance);
-        assert!(
-            least <= global.distance + 1e-13 || !found.unresolved.is_empty(),
-            "{shape}: {global:?} {found:?}"
-        );
-        assert!(least >= global.lower_bound);
+        let inside = |[u, v]: [f64; 2]| {
+            let u = u.clamp(0.0, 1.0);
+            net.point([u, v.clamp(0.0, 1.0 - u)])
+        };
+        each_is_least(&found, &projector.closest_point(q).unwrap(), q, inside);
         let samples = net.samples(q, N);
         let at = |i: usize, j: usize| samples[i * (N + 1) - i * i.saturating_sub(1) / 2 + j];
         for &(distance, [i, j]) in &samples {
