@@ -1,7 +1,6 @@
 //! From a polygon in the plane to the parameters of a rectangle or a triangle.
 
 use casteljau_domain::{DomainError, Location, Polygon};
-use casteljau_gb::SurfaceJet;
 use casteljau_geom::glam::{DVec2, dvec2};
 
 /// Corners of the triangle that all charts over a triangle are drawn in: edges of length 1.
@@ -19,13 +18,6 @@ enum Map {
     /// A rectangle of which this side is one point of the surface: a triangle whose vertex 2 is that point. Along
     /// the opposite side s = λ₂/(λ₁ + λ₂), towards the point h = λ₃.
     Pole(usize),
-}
-
-/// Where the parameters come from, as a function of the place, with derivatives.
-struct Expansion {
-    first: [DVec2; 2],
-    /// ∂xx, ∂xy, ∂yy of each parameter.
-    second: [[f64; 3]; 2],
 }
 
 /// A polygon with its map to the parameters.
@@ -94,57 +86,6 @@ impl Chart {
             (Location::Outside, _) => [f64::NAN; 2],
         }
     }
-
-    /// The jet with respect to the place, by the chain rule, from that with respect to the parameters.
-    pub fn jet(&self, place: DVec2, jet: &SurfaceJet) -> SurfaceJet {
-        let Expansion { first: [du, dv], second: [ddu, ddv] } = self.expansion(place);
-        let along = |axis: usize| jet.du * du[axis] + jet.dv * dv[axis];
-        let second = |i: usize, j: usize| {
-            let k = i + j;
-            jet.duu * (du[i] * du[j])
-                + jet.duv * (du[i] * dv[j] + du[j] * dv[i])
-                + jet.dvv * (dv[i] * dv[j])
-                + jet.du * ddu[k]
-                + jet.dv * ddv[k]
-        };
-        SurfaceJet {
-            point: jet.point,
-            du: along(0),
-            dv: along(1),
-            duu: second(0, 0),
-            duv: second(0, 1),
-            dvv: second(1, 1),
-        }
-    }
-
-    fn expansion(&self, place: DVec2) -> Expansion {
-        let flat = [[0.0; 3]; 2];
-        let [l1, l2, l3] = gradients();
-        match self.map {
-            Map::Rectangle([a, b]) => {
-                Expansion { first: [dvec2(1.0 / a, 0.0), dvec2(0.0, 1.0 / b)], second: flat }
-            }
-            Map::Triangle => Expansion { first: [l1, l2], second: flat },
-            Map::Pole(side) => {
-                let [a, b, _] = barycentric(place);
-                let (rest, s) = (a + b, b / (a + b));
-                // s·rest = λ₂, rest = 1 − λ₃.
-                let ds = (l2 + l3 * s) / rest;
-                let mixed = |i: usize, j: usize| (ds[i] * l3[j] + ds[j] * l3[i]) / rest;
-                let dds = [mixed(0, 0), mixed(0, 1), mixed(1, 1)];
-                let (dh, ddh) = (l3, [0.0; 3]);
-                // As from_side does.
-                let turned = |x: [f64; 3]| x.map(|x| -x);
-                let (first, second) = match (side + 2) % 4 {
-                    0 => ([ds, dh], [dds, ddh]),
-                    1 => ([-dh, ds], [ddh, dds]),
-                    2 => ([-ds, -dh], [turned(dds), ddh]),
-                    _ => ([dh, -ds], [ddh, turned(dds)]),
-                };
-                Expansion { first, second }
-            }
-        }
-    }
 }
 
 /// The point of `[0, 1]²` at t along a side and h inwards.
@@ -162,10 +103,4 @@ fn barycentric(p: DVec2) -> [f64; 3] {
     let h = p.y / TRIANGLE[2].y;
     let b = p.x - 0.5 * h;
     [1.0 - b - h, b, h]
-}
-
-/// Their gradients.
-fn gradients() -> [DVec2; 3] {
-    let rise = 1.0 / TRIANGLE[2].y;
-    [dvec2(-1.0, -0.5 * rise), dvec2(1.0, -0.5 * rise), dvec2(0.0, rise)]
 }

@@ -166,15 +166,4 @@ impl<S: ParametricSurface + Clone> Surface for Charted<'_, S> {
         }
         Ok(())
     }
-
-    fn jets(&self, locations: &[Location], out: &mut [SurfaceJet]) -> Result<(), Fault> {
-        let lengths = self.surface.domain().lengths();
-        for (&location, out) in locations.iter().zip(out) {
-            let [u, v] = self.parameters(location);
-            let jet = self.surface.try_jet(u, v)?.rescaled(lengths);
-            let Some(place) = self.chart.polygon.at(location) else { continue };
-            *out = self.chart.jet(place, &jet);
-        }
-        Ok(())
-    }
 }

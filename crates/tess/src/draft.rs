@@ -77,6 +77,8 @@ pub(crate) struct Draft<'a> {
     pub cotangents: Vec<f64>,
     /// Whether no flip of a triangle's edges helped, while it and its neighbours have not changed since.
     pub settled: Vec<bool>,
+    /// Whether no better place was found for a vertex, while the triangles around it have not changed since.
+    pub placed: Vec<bool>,
     pub chord_error: f64,
 }
 
@@ -134,6 +136,7 @@ impl<'a> Draft<'a> {
             passed: vec![false; mesh.triangles.len()],
             cotangents: vec![f64::NAN; mesh.triangles.len()],
             settled: vec![false; mesh.triangles.len()],
+            placed: vec![false; count],
             topology: Topology::new(mesh.triangles, count),
             chord_error: outline.chord_error,
         };

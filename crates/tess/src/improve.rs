@@ -75,6 +75,9 @@ impl Draft<'_> {
         for u in self.topology.across[t as usize].into_iter().filter(|&u| u != NONE) {
             self.settled[u as usize] = false;
         }
+        for v in self.topology.triangles[t as usize] {
+            self.placed[v as usize] = false;
+        }
     }
 
     /// Flips edges of changed triangles while that widens the least angle of the two triangles.
@@ -133,7 +136,7 @@ impl Draft<'_> {
             .above(Self::aim)
             .into_iter()
             .flat_map(|t| self.topology.triangles[t as usize])
-            .filter(|v| *v as usize >= self.boundary)
+            .filter(|&v| v as usize >= self.boundary && !self.placed[v as usize])
             .collect();
         candidates.sort_unstable();
         candidates.dedup();
@@ -144,7 +147,10 @@ impl Draft<'_> {
                 continue;
             }
             self.topology.star(vertex, &mut star);
-            let Some((place, before)) = self.better_place(vertex, &star) else { continue };
+            let Some((place, before)) = self.better_place(vertex, &star) else {
+                self.placed[vertex as usize] = true;
+                continue;
+            };
             for &t in &star {
                 self.topology.triangles[t as usize].iter().for_each(|&v| resting[v as usize] = true);
             }
@@ -164,6 +170,7 @@ impl Draft<'_> {
             } else {
                 let v = vertex as usize;
                 (self.plane[v], self.points[v], self.normals[v]) = (place, point, normal);
+                self.placed[v] = true;
             }
         }
         Ok(any)
@@ -207,7 +214,8 @@ impl Draft<'_> {
         ];
         let flat = |place: DVec2, [b, c]: [usize; 2]| cotangent_2d(place, self.plane[b], self.plane[c]);
         let limit = ring.iter().map(|&edge| flat(here, edge)).fold(PLANE_LIMIT, f64::max);
-        let predicted = |step: DVec2| {
+        // Given up once it exceeds `most`.
+        let predicted = |step: DVec2, most: f64| {
             let (place, point) = (here + step, origin + jacobian[0] * step.x + jacobian[1] * step.y);
             let mut sum = 0.0;
             for &[b, c] in &ring {
@@ -217,12 +225,15 @@ impl Draft<'_> {
                 let touches = b < self.boundary || c < self.boundary;
                 let aim = if touches { BOUNDARY_AIM } else { INNER_AIM };
                 sum += excess(cotangent(point, self.points[b], self.points[c]) / aim);
+                if sum >= most {
+                    return f64::INFINITY;
+                }
             }
             sum
         };
         let mut best = (before * (1.0 - GAIN), None);
         let mut consider = |step: DVec2| {
-            let after = predicted(step);
+            let after = predicted(step, best.0);
             if after < best.0 {
                 best = (after, Some(step));
             }
@@ -335,6 +346,7 @@ impl Draft<'_> {
             return Err(self.too_many(self.plane.len() as f64 + 1.0));
         }
         self.plane.push(place);
+        self.placed.push(false);
         Ok(())
     }
 

@@ -58,6 +58,13 @@ pub(crate) fn bulge(a: DVec3, normal_a: DVec3, b: DVec3, normal_b: DVec3) -> f64
     (chord.dot(normal_b) - chord.dot(normal_a)) / 8.0
 }
 
+/// Whether the normals at the ends of an edge are more than 60° apart: the surface bends or folds in between in a way that
+/// they cannot foretell.
+#[inline]
+pub(crate) fn is_bend(normal_a: DVec3, normal_b: DVec3) -> bool {
+    normal_a != DVec3::ZERO && normal_b != DVec3::ZERO && normal_a.dot(normal_b) < 0.5
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -4,7 +4,7 @@ use casteljau_geom::glam::{DVec2, DVec3};
 
 use crate::TessError;
 use crate::draft::Draft;
-use crate::measure::{bulge, distance_to_triangle};
+use crate::measure::{bulge, distance_to_triangle, is_bend};
 use crate::topology::NONE;
 
 /// Rounds of measuring and splitting.
@@ -13,8 +13,11 @@ const ROUNDS: usize = 80;
 const ANGLE_ROUNDS: usize = 4;
 /// Rounds in which edges are flipped and vertices moved; later ones split only.
 const SHAPE_ROUNDS: usize = 10;
-/// The part of the tolerance that places between the measured ones are left out of.
+/// The part of the tolerance that the measured places are kept to, for the sake of those between them.
 const MARGIN: f64 = 0.93;
+/// A triangle with a corner on the outline, beside which the surface is least like a quadratic one, is measured at more places
+/// where more than this part of the tolerance is foretold.
+const CLOSE: f64 = 0.7;
 /// A triangle without boundary vertices is measured where the normals foretell more than this part of the tolerance.
 const CLEAR: f64 = 0.5;
 /// An edge is measured where they foretell more than this part, or where they were wrong about the centroid.
@@ -22,8 +25,8 @@ const SAFE: f64 = 0.8;
 /// Largest difference, as a part of the tolerance, between what the normals foretell and what is measured.
 const TRUST: f64 = 0.15;
 
-/// Further places in triangles on the outline, whose surface may rise steeply beside a side: weights of the corner opposite
-/// it and of its ends.
+/// Further places beside an edge, in triangles whose surface may rise steeply there: weights of the corner opposite the edge
+/// and of its ends.
 const BESIDE: [[f64; 3]; 3] = [[0.1, 0.45, 0.45], [0.1, 0.75, 0.15], [0.1, 0.15, 0.75]];
 
 /// What is wrong with a triangle.
@@ -38,9 +41,11 @@ enum Fault {
 struct Forecast {
     /// Bulges along the normals at the middles of the edges opposite each corner.
     bulges: [f64; 3],
+    /// By how much the surface may be further off beside an edge's middle than at it.
+    skew: f64,
     /// Whether the triangle need not be measured.
     clear: bool,
-    /// Whether all corners have normals.
+    /// Whether all corners have normals that are not too far apart.
     known: bool,
 }
 
@@ -55,6 +60,11 @@ struct Suspect {
     edges: [f64; 3],
     /// Edges to measure.
     measure: [bool; 3],
+    /// Edges to measure places beside of: those on the outline, and all where the surface may bend too much for a few places
+    /// to tell.
+    beside: [bool; 3],
+    /// By how much other places may be further off.
+    skew: f64,
 }
 
 impl Draft<'_> {
@@ -100,7 +110,6 @@ impl Draft<'_> {
 
     /// Measures the triangles that changed; those beyond the tolerance, and the largest error met.
     fn faults(&mut self, tolerance: f64) -> Result<(Vec<(u32, Fault)>, f64), TessError> {
-        let aim = MARGIN * tolerance;
         let mut changed: Vec<u32> = Vec::new();
         for t in 0..self.topology.triangles.len() as u32 {
             if !self.passed[t as usize] {
@@ -124,7 +133,7 @@ impl Draft<'_> {
             let corners = self.topology.triangles[s.triangle as usize].map(|v| self.plane[v as usize]);
             let middles = (0..3).filter(|&k| s.measure[k]);
             places.extend(middles.map(|k| corners[(k + 1) % 3].midpoint(corners[(k + 2) % 3])));
-            for k in self.outline_edges(s.triangle) {
+            for k in (0..3).filter(|&k| s.beside[k]) {
                 let [a, b, c] = [corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]];
                 places.extend(BESIDE.map(|[x, y, z]| a * x + b * y + c * z));
             }
@@ -136,8 +145,10 @@ impl Draft<'_> {
             for k in (0..3).filter(|&k| s.measure[k]) {
                 s.edges[k] = more.next().map_or(0.0, |middle| self.distance(s.triangle, middle, 0.0));
             }
+            let aim = MARGIN * tolerance - s.skew;
             s.center = self.distance(s.triangle, s.at, aim);
-            for beside in more.by_ref().take(BESIDE.len() * self.outline_edges(s.triangle).count()) {
+            let count = BESIDE.len() * s.beside.iter().filter(|&&beside| beside).count();
+            for beside in more.by_ref().take(count) {
                 s.center = s.center.max(self.distance(s.triangle, beside, aim));
             }
             let worst = (0..3).fold(0, |w, k| if s.edges[k] > s.edges[w] { k } else { w });
@@ -153,10 +164,10 @@ impl Draft<'_> {
         Ok((faults, largest))
     }
 
-    /// The corners opposite edges on the outline.
-    fn outline_edges(&self, t: u32) -> impl Iterator<Item = usize> + use<> {
-        let across = self.topology.across[t as usize];
-        (0..3).filter(move |&k| across[k] == NONE)
+    /// Whether two corners' normals are too far apart to foretell anything.
+    fn is_bent(&self, t: u32) -> bool {
+        let [a, b, c] = self.topology.triangles[t as usize].map(|v| self.normals[v as usize]);
+        is_bend(a, b) || is_bend(b, c) || is_bend(c, a)
     }
 
     /// Distance from a triangle, or from its neighbours where they are nearer and it is above `enough`: a place that slid
@@ -174,7 +185,7 @@ impl Draft<'_> {
         let vertices = self.topology.triangles[t as usize].map(|v| v as usize);
         let corners = self.corners(t);
         let mut bulges = [0.0; 3];
-        let mut most = 0.0f64;
+        let (mut most, mut skew) = (0.0f64, 0.0f64);
         for (k, out) in bulges.iter_mut().enumerate() {
             let (i, j) = ((k + 1) % 3, (k + 2) % 3);
             let (start, end) = (self.normals[vertices[i]], self.normals[vertices[j]]);
@@ -183,16 +194,20 @@ impl Draft<'_> {
             let chord = corners[j] - corners[i];
             let difference = (chord.dot(start) + chord.dot(end)) / 8.0;
             most = most.max(out.abs() + difference.abs());
+            // (1 − x²)(b + dx), the cubic along the edge, is largest near x = d/2b, and there b + d²/4b.
+            let larger = out.abs().max(difference.abs());
+            skew = skew.max(if larger > 0.0 { 0.25 * difference * difference / larger } else { 0.0 });
         }
-        let known = vertices.iter().all(|&v| self.normals[v] != DVec3::ZERO);
+        let known = vertices.iter().all(|&v| self.normals[v] != DVec3::ZERO) && !self.is_bent(t);
         let total = (4.0 / 9.0 * bulges.iter().sum::<f64>()).abs();
         let clear = known && !self.at_boundary(t) && most.max(total) <= CLEAR * tolerance;
-        Forecast { bulges, clear, known }
+        let skew = if known { skew } else { 0.0 };
+        Forecast { bulges, skew, clear, known }
     }
 
     /// A triangle, with the surface at its centroid.
     fn suspect(&self, t: u32, at: DVec3, tolerance: f64) -> Suspect {
-        let Forecast { bulges, known, .. } = self.forecast(t, tolerance);
+        let Forecast { bulges, skew, known, .. } = self.forecast(t, tolerance);
         let corners = self.corners(t);
         // A quadratic through the corners is 4/9 of the sum of its bulges at the centroid.
         let foretold = 4.0 / 9.0 * bulges.iter().sum::<f64>();
@@ -201,9 +216,12 @@ impl Draft<'_> {
         let seen = (at - (corners[0] + corners[1] + corners[2]) / 3.0).dot(normal);
         let trusted = known && (seen - foretold).abs() <= TRUST * tolerance;
         let inner = |k: usize| self.topology.across[t as usize][k] != NONE;
-        let edges = std::array::from_fn(|k| if inner(k) { bulges[k].abs() } else { 0.0 });
+        let edges: [f64; 3] = std::array::from_fn(|k| if inner(k) { bulges[k].abs() } else { 0.0 });
         let measure = std::array::from_fn(|k| inner(k) && (!trusted || bulges[k].abs() > SAFE * tolerance));
-        Suspect { triangle: t, at, center: 0.0, edges, measure }
+        let largest = edges.iter().copied().fold(seen.abs(), f64::max);
+        let steep = self.is_bent(t) || self.at_boundary(t) && largest > CLOSE * tolerance;
+        let beside = std::array::from_fn(|k| steep || !inner(k));
+        Suspect { triangle: t, at, center: 0.0, edges, measure, beside, skew }
     }
 
     /// Splits each faulty triangle once; how many splits that made.

@@ -3,7 +3,7 @@
 use std::borrow::Cow::{Borrowed, Owned};
 
 use casteljau_domain::{Orientation, Polygon};
-use casteljau_gb::{ConcavePatch, GbError, Location, SampleSet, SurfaceJet};
+use casteljau_gb::{ConcavePatch, GbError, Location, SampleSet};
 use casteljau_geom::glam::{DVec3, DVec4};
 use casteljau_shape::ShapeError;
 
@@ -39,9 +39,6 @@ pub(crate) trait Surface {
         points: &mut [DVec3],
         normals: Option<&mut [DVec3]>,
     ) -> Result<(), Fault>;
-
-    /// Jets with respect to the place in the polygon, inside it.
-    fn jets(&self, locations: &[Location], out: &mut [SurfaceJet]) -> Result<(), Fault>;
 }
 
 /// Why a surface has no answer.
@@ -116,16 +113,23 @@ impl Surface for &ConcavePatch {
         points: &mut [DVec3],
         normals: Option<&mut [DVec3]>,
     ) -> Result<(), Fault> {
-        let samples = SampleSet::new(self.coordinates(), locations, usize::from(normals.is_some()))?;
-        match normals {
-            Some(normals) => self.evaluate_sample_normals(&samples, points, normals)?,
-            None => self.evaluate_samples(&samples, points)?,
+        let Some(normals) = normals else {
+            let samples = SampleSet::new(self.coordinates(), locations, 0)?;
+            return Ok(self.evaluate_samples(&samples, points)?);
+        };
+        // On the outline the ribbons know the normal: derivatives of the coordinates are not needed there.
+        let inside = |location: &Location| matches!(location, Location::Inside(_));
+        let outline = locations.iter().position(inside).unwrap_or(locations.len());
+        let (outline, inside) = locations.split_at(outline);
+        let (outline_points, points) = points.split_at_mut(outline.len());
+        let (outline_normals, normals) = normals.split_at_mut(outline.len());
+        let samples = SampleSet::new(self.coordinates(), outline, 0)?;
+        self.evaluate_samples(&samples, outline_points)?;
+        for (normal, &location) in outline_normals.iter_mut().zip(outline) {
+            *normal = self.normal_at(location).unwrap_or(DVec3::ZERO);
         }
+        let samples = SampleSet::new(self.coordinates(), inside, 1)?;
+        self.evaluate_sample_normals(&samples, points, normals)?;
         Ok(())
-    }
-
-    fn jets(&self, locations: &[Location], out: &mut [SurfaceJet]) -> Result<(), Fault> {
-        let samples = SampleSet::new(self.coordinates(), locations, 2)?;
-        Ok(self.evaluate_sample_jets(&samples, out)?)
     }
 }

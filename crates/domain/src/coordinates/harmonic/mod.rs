@@ -124,6 +124,9 @@ impl HarmonicCoordinates {
 
     /// Rows of λ and its derivatives at points inside: 1, 3 or 6 rows of n a point, point-major.
     pub(super) fn evaluate_inside(&self, points: &[DVec2], order: usize, out: &mut [f64]) {
+        if points.is_empty() {
+            return;
+        }
         Arch::new().dispatch(Batch { coordinates: self, points, order, out });
     }
 
@@ -138,6 +141,9 @@ impl HarmonicCoordinates {
         order: usize,
         out: &mut [f64],
     ) {
+        if places.is_empty() {
+            return;
+        }
         Arch::new().dispatch(SideBatch { coordinates: self, polygon, places, order, out });
     }
 
