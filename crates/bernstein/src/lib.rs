@@ -95,7 +95,9 @@ mod tensor;
 mod wedge;
 
 pub use basis::{basis, basis_barycentric, basis_derivatives};
-pub use batch::{BatchPoint, CurveBatch, GridBatch, PatchBatch, elevate_many, subdivide_many, to_power_many};
+pub use batch::{
+    BatchPoint, CurveBatch, GridBatch, PatchBatch, TriangleBatch, elevate_many, subdivide_many, to_power_many,
+};
 pub use binomial::{MAX_DEGREE, binomial};
 pub use blossom::{blossom, blossom_tensor};
 pub use bounds::{Extremes, extremes, hull_bounds};

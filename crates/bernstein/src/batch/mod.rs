@@ -5,6 +5,7 @@
 //! | one curve at many parameters | [`CurveBatch`] |
 //! | patches, one or thousands, on a grid of parameters | [`GridBatch`] |
 //! | one patch at many parameters without order | [`PatchBatch`] |
+//! | one triangle at many parameters without order | [`TriangleBatch`] |
 //! | many curves or nets cut, raised in degree, taken to the power basis | [`subdivide_many`], [`elevate_many`], [`to_power_many`] |
 //!
 //! **Layout.** Points are arrays of structures, `&mut [DVec3]` and the like, as callers hold them. Values and
@@ -31,6 +32,8 @@
 //! - Scattered points take the scheme in both parameters up to a total degree of 9, and the basis up to
 //!   degree 31 in each; the basis, too, where u or v is 1 exactly. Above degree 31 they go one by one through
 //!   [`TensorNet::partials`](crate::TensorNet::partials).
+//! - Triangles take the powers of the barycentric coordinates up to degree 40, above go one by one through
+//!   [`TriangleNet::partials`](crate::SimplexNet::partials).
 //!
 //! **Limits.** Any finite parameter, degrees up to [`MAX_DEGREE`](crate::MAX_DEGREE), coordinates up to
 //! 10¹⁵⁰. The error is the crate's, `4(n + 2k + 2)·u·scale`, for parameters outside `[0, 1]` too.
@@ -53,6 +56,7 @@ mod rational;
 mod simd;
 #[cfg(test)]
 mod tests;
+mod triangle;
 
 use pulp::bytemuck::Pod;
 
@@ -60,6 +64,7 @@ pub use self::curve::CurveBatch;
 pub use self::grid::GridBatch;
 pub use self::many::{elevate_many, subdivide_many, to_power_many};
 pub use self::patch::PatchBatch;
+pub use self::triangle::TriangleBatch;
 use crate::glam::{DVec2, DVec3, DVec4};
 use crate::{BernsteinError, Point};
 

@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 
 use super::simd::{FORCED, Path};
-use super::{CurveBatch, GridBatch, PatchBatch, elevate_many, subdivide_many, to_power_many};
+use super::{CurveBatch, GridBatch, PatchBatch, TriangleBatch, elevate_many, subdivide_many, to_power_many};
 use crate::glam::{DVec2, DVec3, DVec4};
 
 /// Numbers without a pattern: multiples of 2⁻³² in [−1, 1).
@@ -155,6 +155,37 @@ fn scattered() {
                 let mut out = [(); 6].map(|()| vec![DVec3::ZERO; uv.len()]);
                 let patch = PatchBatch::new(&net, degrees).unwrap();
                 let answer = patch.evaluate_rational(&uv, out.each_mut().map(|out| &mut out[..]));
+                vec![(answer, out)]
+            });
+        }
+    }
+}
+
+#[test]
+fn triangles() {
+    for degree in [0, 1, 2, 3, 9, 40, 43] {
+        let net = points((degree + 1) * (degree + 2) / 2, 5);
+        for count in [1, 7, 8, 21] {
+            let (u, v) = (parameters(count, 3), parameters(count + 1, 4));
+            let at: Vec<DVec2> =
+                u.into_iter().zip(v.into_iter().skip(1)).map(|(u, v)| DVec2::new(u, v)).collect();
+            let what = format!("degree {degree} at {count} places");
+            let jets = |at: &[DVec2]| {
+                let mut out = [(); 6].map(|()| vec![DVec3::ZERO; at.len()]);
+                let triangle = TriangleBatch::new(&space(&net), degree).unwrap();
+                triangle.evaluate(at, out.each_mut().map(|out| &mut out[..])).unwrap();
+                (0..at.len()).map(|i| out.each_ref().map(|out| out[i])).collect::<Vec<_>>()
+            };
+            let all = on_every_path(&what, || jets(&at));
+            let alone: Vec<_> = at.iter().flat_map(|&at| jets(&[at])).collect();
+            assert_eq!(all, alone, "{what}: each alone");
+            let mut values = vec![DVec3::ZERO; count];
+            TriangleBatch::new(&space(&net), degree).unwrap().evaluate(&at, [&mut values]).unwrap();
+            assert_eq!(values, all.iter().map(|jet| jet[0]).collect::<Vec<_>>(), "{what}: values alone");
+            on_every_path(&what, || {
+                let mut out = [(); 6].map(|()| vec![DVec3::ZERO; at.len()]);
+                let triangle = TriangleBatch::new(&net, degree).unwrap();
+                let answer = triangle.evaluate_rational(&at, out.each_mut().map(|out| &mut out[..]));
                 vec![(answer, out)]
             });
         }

@@ -29,6 +29,6 @@ pub(crate) use elevation::{check_elevation, elevate_step};
 pub(crate) use face::face_indices;
 pub(crate) use index::{step_back, vertex_place};
 pub(crate) use integral::{Compensated, measure, moment_weight};
-pub(crate) use net::{partial, value};
+pub(crate) use net::{differentiate, partial, value};
 pub(crate) use product::{product_degree, shares};
 pub(crate) use restriction::{check_vertices, replace_vertex};

@@ -215,14 +215,20 @@ fn by_differences<P: Point, const V: usize, const ROOM: usize>(
     for (place, p) in net.iter_mut().enumerate().take(simplex_count::<V>(n)) {
         *p = at(place);
     }
+    let lower = differentiate::<P, V>(n, orders, &mut net);
+    value(lower, lambda, &|place| net[place])
+}
+
+/// `Δ^α P_β` of a net of degree n, in place, and the degree n − |α| ≥ 0 that is left.
+pub(crate) fn differentiate<P: Point, const V: usize>(n: usize, orders: &[usize], net: &mut [P]) -> usize {
     let mut lower = n;
     for (axis, &order) in orders.iter().enumerate() {
         for _ in 0..order {
             lower -= 1;
-            difference_along::<P, V>(lower, axis, &mut net);
+            difference_along::<P, V>(lower, axis, net);
         }
     }
-    value(lower, lambda, &|place| net[place])
+    lower
 }
 
 /// `Δₐ P_β` for all β of degree `lower`, in place: what is read stands at the place written or above. Points that
