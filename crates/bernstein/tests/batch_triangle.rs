@@ -147,7 +147,7 @@ fn poles_are_errors_with_their_first_place_and_never_not_a_number() {
 
 #[test]
 fn nothing_depends_on_the_number_of_threads() {
-    let net: Vec<DVec3> = (0..15).map(|i| f64::from(i)).map(|i| DVec3::new(i, i.sin(), i.cos())).collect();
+    let net: Vec<DVec3> = (0..15).map(f64::from).map(|i| DVec3::new(i, i.sin(), i.cos())).collect();
     let at: Vec<DVec2> = (0..40_000).map(|i| 0.5 * DVec2::from_angle(f64::from(i)).abs()).collect();
     let triangle = TriangleBatch::new(&net, 4).unwrap();
     let with = |threads| {

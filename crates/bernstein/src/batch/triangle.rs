@@ -260,8 +260,10 @@ impl<const K: usize, const RATIONAL: bool> Job for Scattered<'_, K, RATIONAL> {
             let [u, v] = load_pairs(simd, triangle.parameters, place);
             let lambda = [u, v, last(simd, u, v)];
             for (row, x) in powers.iter_mut().zip(lambda) {
+                let mut power = x;
                 for i in 1..=degree {
-                    row[i] = simd.mul_f64s(row[i - 1], x);
+                    row[i] = power;
+                    power = simd.mul_f64s(power, x);
                 }
             }
             let mut jet = [[simd.splat_f64s(0.0); D]; K];
