@@ -347,8 +347,8 @@ pub enum ShapeError {
 
 impl ShapeError {
     /// The answer at these parameters leaves the range of numbers.
-    pub(crate) fn overflow(at: Parameters) -> Self {
-        Self::Evaluation { at, source: GeomError::Overflow { denominator: 1.0 } }
+    pub(crate) fn overflow(at: Parameters, denominator: f64) -> Self {
+        Self::Evaluation { at, source: GeomError::Overflow { denominator } }
     }
 }
 

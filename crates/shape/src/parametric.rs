@@ -68,7 +68,40 @@ pub trait ParametricCurve {
     /// # Errors
     /// [`ShapeError::Parameter`] where `t` is not finite, [`ShapeError::Evaluation`] at a pole, and where an
     /// answer would leave the range of numbers; `out` is then not to be used.
-    fn try_partials(&self, t: f64, out: &mut [DVec3]) -> Result<(), ShapeError>;
+    fn try_partials(&self, t: f64, out: &mut [DVec3]) -> Result<(), ShapeError> {
+        self.extended_partials(t, out)?;
+        if out.iter().all(|d| d.is_finite()) {
+            Ok(())
+        } else {
+            Err(ShapeError::overflow(Parameters::Curve(t), self.weight(t)))
+        }
+    }
+
+    /// As [`try_partials`](Self::try_partials), but a derivative that leaves the range of numbers is infinite or NaN
+    /// in `out`, and the others stand.
+    ///
+    /// This is what a kind of curve implements; [`try_existing_partials`](Self::try_existing_partials) is the
+    /// one to ask.
+    ///
+    /// # Errors
+    /// [`ShapeError::Parameter`] where a parameter is not finite, [`ShapeError::Evaluation`] at a pole.
+    fn extended_partials(&self, t: f64, out: &mut [DVec3]) -> Result<(), ShapeError>;
+
+    /// Point and derivatives up to an order, `None` for those that leave the range of numbers.
+    ///
+    /// The first one is the point, which exists. Near a pole, and over short intervals, higher derivatives may not.
+    ///
+    /// # Errors
+    /// [`ShapeError::Parameter`] where a parameter is not finite, [`ShapeError::Evaluation`] where there is no point.
+    fn try_existing_partials(&self, t: f64, order: usize) -> Result<Vec<Option<DVec3>>, ShapeError> {
+        let mut jet = Partials::<1>::zero(order);
+        self.extended_partials(t, jet.as_mut_slice())?;
+        let all: Vec<_> = jet.as_slice().iter().map(|d| d.is_finite().then_some(*d)).collect();
+        match all.first() {
+            Some(None) => Err(ShapeError::overflow(Parameters::Curve(t), self.weight(t))),
+            _ => Ok(all),
+        }
+    }
 
     /// The denominator w(t); 1 for a polynomial curve.
     fn weight(&self, t: f64) -> f64;
@@ -172,7 +205,40 @@ pub trait ParametricSurface {
     /// # Errors
     /// [`ShapeError::Parameter`] where a parameter is not finite, [`ShapeError::Evaluation`] at a pole, and
     /// where an answer would leave the range of numbers; `out` is then not to be used.
-    fn try_partials(&self, u: f64, v: f64, out: &mut [DVec3]) -> Result<(), ShapeError>;
+    fn try_partials(&self, u: f64, v: f64, out: &mut [DVec3]) -> Result<(), ShapeError> {
+        self.extended_partials(u, v, out)?;
+        if out.iter().all(|d| d.is_finite()) {
+            Ok(())
+        } else {
+            Err(ShapeError::overflow(Parameters::Surface([u, v]), self.weight(u, v)))
+        }
+    }
+
+    /// As [`try_partials`](Self::try_partials), but a derivative that leaves the range of numbers is infinite or NaN
+    /// in `out`, and the others stand.
+    ///
+    /// This is what a kind of surface implements; [`try_existing_partials`](Self::try_existing_partials) is the
+    /// one to ask.
+    ///
+    /// # Errors
+    /// [`ShapeError::Parameter`] where a parameter is not finite, [`ShapeError::Evaluation`] at a pole.
+    fn extended_partials(&self, u: f64, v: f64, out: &mut [DVec3]) -> Result<(), ShapeError>;
+
+    /// Point and partial derivatives up to an order, `None` for those that leave the range of numbers.
+    ///
+    /// The first one is the point, which exists. Near a pole, and over short intervals, higher derivatives may not.
+    ///
+    /// # Errors
+    /// [`ShapeError::Parameter`] where a parameter is not finite, [`ShapeError::Evaluation`] where there is no point.
+    fn try_existing_partials(&self, u: f64, v: f64, order: usize) -> Result<Vec<Option<DVec3>>, ShapeError> {
+        let mut jet = Partials::<2>::zero(order);
+        self.extended_partials(u, v, jet.as_mut_slice())?;
+        let all: Vec<_> = jet.as_slice().iter().map(|d| d.is_finite().then_some(*d)).collect();
+        match all.first() {
+            Some(None) => Err(ShapeError::overflow(Parameters::Surface([u, v]), self.weight(u, v))),
+            _ => Ok(all),
+        }
+    }
 
     /// The denominator w(u,v); 1 for a polynomial surface.
     fn weight(&self, u: f64, v: f64) -> f64;
@@ -208,15 +274,24 @@ pub trait ParametricSurface {
     }
 
     /// Unit normal `∂u × ∂v / |∂u × ∂v|`; where that collapses, its limit on the way to the middle of the
-    /// domain, see [`SurfaceJet::normal_toward`].
+    /// domain, see [`SurfaceJet::normal_toward`]. Where second derivatives leave the range of numbers the first ones
+    /// alone decide.
     ///
     /// # Errors
     /// [`ShapeError::NoTangentPlane`] where derivatives up to order 2 do not decide, and those of
     /// [`try_partials`](Self::try_partials).
     fn try_normal(&self, u: f64, v: f64) -> Result<DVec3, ShapeError> {
-        let domain = self.domain();
-        let jet = self.try_jet(u, v)?.rescaled(domain.lengths());
-        let at = Parameters::Surface([u, v]);
+        let (domain, at) = (self.domain(), Parameters::Surface([u, v]));
+        let mut out = [DVec3::ZERO; 6];
+        self.extended_partials(u, v, &mut out)?;
+        let (first, second) = out.split_at_mut(3);
+        if !first.iter().all(|d| d.is_finite()) {
+            return Err(ShapeError::overflow(at, self.weight(u, v)));
+        }
+        if !second.iter().all(|d| d.is_finite()) {
+            second.fill(DVec3::ZERO);
+        }
+        let jet = SurfaceJet::from(out).rescaled(domain.lengths());
         jet.normal_toward(domain.inward([u, v])).ok_or(ShapeError::NoTangentPlane { at })
     }
 
