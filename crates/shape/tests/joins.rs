@@ -217,6 +217,25 @@ proptest! {
         let (a, b) = (SurfaceEdge::of_patch(&patch, edge).unwrap(), SurfaceEdge::of_patch(&next, PatchEdge::UStart).unwrap());
         let report = JoinReport::along_edge(&a, &b, 17).unwrap();
         prop_assert!(report.gap.value < 1e-13 && report.angle.unwrap().value < 1e-4, "{report:?}");
+        // Across the joint the derivative is α of that before it and β of that along it, by the formula.
+        for k in 0..=8 {
+            let t = f64::from(k) / 8.0;
+            let (u, v, sign) = match edge {
+                PatchEdge::UStart => (0.0, t, -1.0),
+                PatchEdge::UEnd => (1.0, t, 1.0),
+                PatchEdge::VStart => (t, 0.0, -1.0),
+                PatchEdge::VEnd => (t, 1.0, 1.0),
+            };
+            let jet = patch.jet(u, v).unwrap();
+            let (out, along) = match edge {
+                PatchEdge::UStart | PatchEdge::UEnd => (jet.du * sign, jet.dv),
+                _ => (jet.dv * sign, jet.du),
+            };
+            let slide = if beta.is_empty() { 0.0 } else { value(&beta, t) };
+            let wanted = out * (value(&alpha, t) / 3.0) + along * slide;
+            let got = next.jet(0.0, t).unwrap().du * next.intervals()[0].length();
+            prop_assert!(got.distance(wanted) < 1e-12 * (1.0 + wanted.length()), "{got} instead of {wanted} at {t}");
+        }
         let constant = patch.continued_varying(edge, &alpha[..1], &[], &[]).unwrap();
         let plain = patch.continued(edge, alpha[0], &[]).unwrap();
         for (p, q) in constant.control_points().iter().zip(plain.control_points()) {
