@@ -56,6 +56,7 @@ mod tight_box;
 mod triangle;
 mod triangle_operations;
 
+pub use area::MeasuredArea;
 pub use closest::{
     CurveProjector, LocalMinima, LocalMinimum, LocalProjection, PatchProjector, Projection, TriangleProjector,
 };
