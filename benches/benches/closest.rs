@@ -17,7 +17,9 @@
 #![allow(clippy::unwrap_used)]
 
 use casteljau::shape::geom::glam::DVec3;
-use casteljau::shape::{Curve, CurveProjector, Patch, PatchProjector, StraightLine};
+use casteljau::shape::{
+    Curve, CurveProjector, Patch, PatchProjector, StraightLine, Triangle, TriangleProjector,
+};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 const SHAPES: usize = 20;
@@ -34,6 +36,17 @@ fn patch(k: usize) -> Patch {
         _ => spread(k * 16 + p),
     };
     Patch::new([3, 3], (0..16).map(point).collect::<Vec<_>>()).unwrap()
+}
+
+/// A cubic triangle over half of the square, chosen as the patches are.
+fn triangle(k: usize) -> Triangle {
+    let over = |p: usize, i: usize, j: usize| match k % 2 {
+        0 => DVec3::new(i as f64, j as f64, 0.0) / 3.0 + (spread(k * 10 + p) - 0.5) * 0.3,
+        _ => spread(k * 10 + p),
+    };
+    // Indices (i, j, 3 − i − j) in descending lexicographic order.
+    let indices = (0..4).rev().flat_map(|i| (0..4 - i).rev().map(move |j| (i, j)));
+    Triangle::new(3, indices.enumerate().map(|(p, (i, j))| over(p, i, j)).collect::<Vec<_>>()).unwrap()
 }
 
 fn query(k: usize) -> DVec3 {
@@ -65,6 +78,22 @@ fn closest_benches(criterion: &mut Criterion) {
     group.bench_function("cubic curve", |b| {
         b.iter(|| -> f64 {
             (0..QUERIES).map(|k| curves[k % SHAPES].closest_point(query(k)).unwrap().distance).sum()
+        });
+    });
+    let triangles: Vec<TriangleProjector> =
+        (0..SHAPES).map(|k| TriangleProjector::new(&triangle(k)).unwrap()).collect();
+    group.bench_function("cubic triangle", |b| {
+        b.iter(|| -> f64 {
+            (0..QUERIES).map(|k| triangles[k % SHAPES].closest_point(query(k)).unwrap().distance).sum()
+        });
+    });
+    let starts: Vec<[f64; 2]> = (0..QUERIES)
+        .map(|k| triangles[k % SHAPES].closest_point(query(k)).unwrap().parameters.map(|x| x + 0.01))
+        .collect();
+    group.bench_function("cubic triangle from a start", |b| {
+        b.iter(|| -> f64 {
+            let near = |k: usize| triangles[k % SHAPES].closest_point_from(query(k), starts[k]);
+            (0..QUERIES).map(|k| near(k).unwrap().distance).sum()
         });
     });
     group.throughput(Throughput::Elements(1));

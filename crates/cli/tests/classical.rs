@@ -155,6 +155,69 @@ fn a_pole_has_an_error_and_the_rest_is_answered() {
 }
 
 #[test]
+fn what_overflows_is_null_and_the_point_is_answered() {
+    // Over an interval of 1e-200 first derivatives are 1e200, second ones nothing that a number holds.
+    let arc = json!({"kind": "curve", "degree": 2, "control_points": [[0, 0, 0], [1, 0, 0], [1, 1, 0]],
+        "interval": [0.0, 1e-200]});
+    let answer = |shape: &Value, arguments: &[&str]| {
+        let all = [&["eval", "-", "--json"], arguments].concat();
+        with_input(&all, &single(shape)).good().json().remove(0)
+    };
+    let line = answer(&arc, &["--at", "0", "--order", "3"]);
+    assert_eq!(line["point"], json!([0.0, 0.0, 0.0]));
+    near(&numbers(&line["tangent"]), &[1.0, 0.0, 0.0], 1e-15);
+    assert!(line["curvature"].is_null() && line["torsion"].is_null());
+    near(&numbers(&line["partials"]["1"]), &[2e200, 0.0, 0.0], 1e185);
+    assert_eq!((line["partials"].as_object().unwrap().len(), &line["partials"]["2"]), (4, &Value::Null));
+    assert_eq!(line["partials"]["3"], json!([0.0, 0.0, 0.0]));
+    let line = answer(&arc, &["--at", "0"]);
+    assert!(line["point"].is_array() && line.get("partials").is_none());
+
+    // z = u² + v² over [0, 1e-200] × [0, 1]: of the second derivatives only that with u is beyond the range.
+    let net: Vec<Vec<[f64; 3]>> = (0..3)
+        .map(|i| {
+            (0..3)
+                .map(|j| {
+                    [
+                        i as f64 / 2.0,
+                        j as f64 / 2.0,
+                        f64::from(u8::from(i == 2)) + f64::from(u8::from(j == 2)),
+                    ]
+                })
+                .collect()
+        })
+        .collect();
+    let bowl = json!({"kind": "patch", "degree": [2, 2], "control_points": net, "intervals": [[0.0, 1e-200], [0.0, 1.0]]});
+    let line = answer(&bowl, &["--at", "0,0", "--order", "2"]);
+    assert_eq!(line["point"], json!([0.0, 0.0, 0.0]));
+    near(&numbers(&line["normal"]), &[0.0, 0.0, 1.0], 1e-15);
+    assert!(line["gaussian"].is_null() && line["mean"].is_null() && line["principal"].is_null());
+    assert!(line["partials"]["2,0"].is_null());
+    near(&numbers(&line["partials"]["1,0"]), &[1e200, 0.0, 0.0], 1e185);
+    near(&numbers(&line["partials"]["0,2"]), &[0.0, 0.0, 2.0], 1e-14);
+    let text = with_input(&["eval", "-", "--at", "0,0", "--order", "2"], &single(&bowl)).good().out;
+    assert!(
+        text.contains("partial 2,0  none") && text.contains("Gaussian none, mean none, principal none"),
+        "{text}"
+    );
+
+    // So close to a pole that the point is finite and no derivative is; the pole itself has no answer.
+    let near_pole = json!({"kind": "curve", "degree": 1, "homogeneous": [[1, 0, 0, 1e-200], [1, 0, 0, -1]]});
+    let line = answer(&near_pole, &["--at", "0", "--order", "1"]);
+    near(&numbers(&line["point"]), &[1e200, 0.0, 0.0], 1e185);
+    assert!(line["tangent"].is_null() && line["partials"]["1"].is_null());
+    let beyond = json!({"kind": "curve", "degree": 1, "homogeneous": [[1e120, 0, 0, 1e-200], [1, 0, 0, -1]]});
+    for (shape, word) in [
+        (&beyond, "leave"),
+        (&json!({"kind": "curve", "degree": 1, "homogeneous": [[1, 0, 0, 0], [1, 0, 0, -1]]}), "zero within"),
+    ] {
+        let run = with_input(&["eval", "-", "--json", "--at", "0"], &single(shape)).bad(1, &["1 of 1"]);
+        let line = run.json().remove(0);
+        assert!(line.get("point").is_none() && line["error"].as_str().unwrap().contains(word), "{line}");
+    }
+}
+
+#[test]
 fn parameters_must_fit_the_shape() {
     let (circle, octant) = (model("circle.json"), model("octant.json"));
     casteljau(&["eval", &circle, "--at", "0,0"]).bad(2, &["--at 0,0: expected one number, t, not 2"]);

@@ -46,6 +46,15 @@ impl CurveJet {
         [self.point, self.d1, self.d2, self.d3].iter().all(|v| v.is_finite())
     }
 
+    /// The jet with respect to the parameter t/a, `dᵏ ↦ aᵏ dᵏ`.
+    ///
+    /// With a the length of the parameter interval derivatives are of the size of the curve, whatever the interval;
+    /// the frame and the curvatures stay what they are.
+    #[must_use]
+    pub fn rescaled(&self, a: f64) -> Self {
+        Self { point: self.point, d1: self.d1 * a, d2: self.d2 * a * a, d3: self.d3 * a * a * a }
+    }
+
     /// Unit tangent `C′/|C′|`; `None` where C′ = 0.
     #[must_use]
     pub fn tangent(&self) -> Option<DVec3> {

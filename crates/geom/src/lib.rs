@@ -45,7 +45,9 @@ pub use error::GeomError;
 pub use interval::Interval;
 pub use multi_index::{multi_indices, partial_count, partial_index};
 pub use partials::Partials;
-pub use quotient::{ScalarJet, quotient_curve_jet, quotient_jet, quotient_partials};
+pub use quotient::{
+    ScalarJet, extended_quotient_partials, quotient_curve_jet, quotient_jet, quotient_partials,
+};
 pub use solid_jet::SolidJet;
 pub use surface_jet::{SurfaceJet, TangentPlane};
 pub use tolerance::{COLLAPSE, UNIT_ROUNDOFF, rounding_bound};

@@ -101,6 +101,35 @@ pub fn quotient_partials<const N: usize>(
     uncertainty: f64,
     out: &mut [DVec3],
 ) -> Result<(), GeomError> {
+    extended_quotient_partials::<N>(homogeneous, uncertainty, out)?;
+    match homogeneous.first() {
+        Some(value) if !out.iter().all(|d| d.is_finite()) => {
+            Err(GeomError::Overflow { denominator: value.w })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// As [`quotient_partials`], but a derivative that leaves the range of numbers is infinite or NaN in `out`, and so are
+/// those that are computed from it; the others stand.
+///
+/// ```
+/// use casteljau_geom::{extended_quotient_partials, glam::{DVec3, DVec4}};
+/// // 1/w at w = 1e-200 with w′ = 1: the derivative is −1e400.
+/// let net = [DVec4::new(1.0, 0.0, 0.0, 1e-200), DVec4::W];
+/// let mut out = [DVec3::ZERO; 2];
+/// extended_quotient_partials::<1>(&net, 0.0, &mut out)?;
+/// assert!(out[0].x == 1e200 && !out[1].is_finite());
+/// # Ok::<(), casteljau_geom::GeomError>(())
+/// ```
+///
+/// # Errors
+/// [`GeomError::Pole`] where w vanishes; `out` is then not to be used.
+pub fn extended_quotient_partials<const N: usize>(
+    homogeneous: &[DVec4],
+    uncertainty: f64,
+    out: &mut [DVec3],
+) -> Result<(), GeomError> {
     let fits = homogeneous.len().min(out.len());
     let order = (0..).take_while(|&k| N > 0 && partial_count::<N>(k) <= fits).last();
     let used = order.map_or(0, partial_count::<N>);
@@ -118,11 +147,7 @@ pub fn quotient_partials<const N: usize>(
             }
             sum -= out[partial_index(rest)] * (binomial(alpha, beta) * homogeneous[partial_index(beta)].w);
         }
-        let quotient = sum / w;
-        if !quotient.is_finite() {
-            return Err(GeomError::Overflow { denominator: w });
-        }
-        out[place] = quotient;
+        out[place] = sum / w;
     }
     Ok(())
 }

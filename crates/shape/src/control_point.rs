@@ -2,7 +2,7 @@
 
 use casteljau_bernstein::Point;
 use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
-use casteljau_geom::{BoundingBox, GeomError, partial_count, quotient_partials, rounding_bound};
+use casteljau_geom::{BoundingBox, GeomError, extended_quotient_partials, partial_count, rounding_bound};
 
 use crate::ShapeError;
 use crate::error::{check_points, check_weight};
@@ -38,7 +38,8 @@ pub(crate) mod private {
         /// The point in space; `None` at infinity.
         fn euclidean(self) -> Option<DVec3>;
 
-        /// Derivatives of the shape in N parameters, from the kernel that fills in those of its net.
+        /// Derivatives of the shape in N parameters, from the kernel that fills in those of its net; what leaves the
+        /// range of numbers is infinite or NaN.
         ///
         /// `uncertainty` bounds the error of the weight that it is given.
         fn project<const N: usize>(
@@ -69,11 +70,7 @@ pub(crate) mod private {
             _: impl FnOnce(f64) -> f64,
         ) -> Result<(), GeomError> {
             kernel(out);
-            if out.iter().all(|d| d.is_finite()) {
-                Ok(())
-            } else {
-                Err(GeomError::Overflow { denominator: 1.0 })
-            }
+            Ok(())
         }
     }
 
@@ -109,7 +106,7 @@ pub(crate) mod private {
             };
             kernel(net);
             let Some(value) = net.first() else { return Ok(()) };
-            quotient_partials::<N>(net, uncertainty(value.w), out)
+            extended_quotient_partials::<N>(net, uncertainty(value.w), out)
         }
     }
 }

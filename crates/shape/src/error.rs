@@ -250,6 +250,24 @@ pub enum ShapeError {
         value: f64,
     },
 
+    /// A ratio that varies along an edge is not positive all along, or 0 within its rounding.
+    ///
+    /// ```
+    /// use casteljau_shape::{Patch, PatchEdge, ShapeError, geom::glam::DVec3};
+    /// let flat = Patch::new([1, 1], [DVec3::ZERO, DVec3::Y, DVec3::X, DVec3::new(1.0, 1.0, 0.0)])?;
+    /// let alpha = |middle| flat.continued_varying(PatchEdge::UEnd, &[1.0, middle, 1.0], &[], &[]);
+    /// assert_eq!(alpha(-2.0), Err(ShapeError::Ratio { at: 0.5, value: -0.5 }));
+    /// assert!(alpha(-0.9).is_ok()); // at ½ it is 0.05
+    /// # Ok::<(), ShapeError>(())
+    /// ```
+    #[error("the ratio along the edge is not positive: {value:e} at {at}")]
+    Ratio {
+        /// The parameter on the edge, from 0 to 1.
+        at: f64,
+        /// The ratio there.
+        value: f64,
+    },
+
     /// The weights of a rational shape do not all have one sign, so that its control points bound nothing.
     ///
     /// ```
@@ -347,8 +365,8 @@ pub enum ShapeError {
 
 impl ShapeError {
     /// The answer at these parameters leaves the range of numbers.
-    pub(crate) fn overflow(at: Parameters) -> Self {
-        Self::Evaluation { at, source: GeomError::Overflow { denominator: 1.0 } }
+    pub(crate) fn overflow(at: Parameters, denominator: f64) -> Self {
+        Self::Evaluation { at, source: GeomError::Overflow { denominator } }
     }
 }
 

@@ -56,6 +56,7 @@ mod tight_box;
 mod triangle;
 mod triangle_operations;
 
+pub use area::MeasuredArea;
 pub use closest::{
     CurveProjector, LocalMinima, LocalMinimum, LocalProjection, PatchProjector, Projection, TriangleProjector,
 };
@@ -63,7 +64,9 @@ pub use control_point::ControlPoint;
 pub use curve::{BezierCurve, Curve, RationalCurve};
 pub use error::{LARGEST_COORDINATE, ShapeError};
 pub use intersect::{LineIntersection, LinePoint, PlaneIntersection, PlanePoint, StraightLine};
-pub use joins::{Continuity, CurvatureCondition, JoinReport, JoinTolerance, Maximum, SurfaceEdge};
+pub use joins::{
+    Continuity, CrossRatio, CurvatureCondition, JoinReport, JoinTolerance, Maximum, SurfaceEdge,
+};
 pub use parametric::{Parameters, ParametricCurve, ParametricSurface, SurfaceDomain};
 pub use patch::{BezierPatch, Patch, RationalPatch};
 pub use patch_operations::PatchEdge;

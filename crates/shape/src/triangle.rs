@@ -89,7 +89,7 @@ impl<P: ControlPoint> ParametricSurface for BezierTriangle<P> {
         SurfaceDomain::Triangle
     }
 
-    fn try_partials(&self, u: f64, v: f64, out: &mut [DVec3]) -> Result<(), ShapeError> {
+    fn extended_partials(&self, u: f64, v: f64, out: &mut [DVec3]) -> Result<(), ShapeError> {
         let at = Parameters::Surface([u, v]).finite()?;
         let lambda = barycentric(u, v);
         let kernel = |net: &mut [P]| self.net().partials(lambda, net);

@@ -5,7 +5,10 @@ use std::f64::consts::PI;
 
 use casteljau_geom::Interval;
 use casteljau_geom::glam::DVec3;
-use casteljau_shape::{ParametricSurface, Patch, RationalPatch, RationalTriangle, ShapeError, Triangle};
+use casteljau_shape::{
+    MeasuredArea, ParametricSurface, Patch, RationalPatch, RationalTriangle, ShapeError, SurfaceDomain,
+    Triangle,
+};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -78,5 +81,167 @@ proptest! {
         // A graph is no smaller than its shadow.
         let shadow: Vec<DVec3> = net.iter().map(|p| p.with_z(0.0)).collect();
         prop_assert!(RationalPatch::new([2, 3], &shadow, &weights).unwrap().area(1e-9).unwrap() <= whole * (1.0 + 1e-8));
+    }
+}
+
+/// Node and weight on [0, 1] of Gauss's rule of six points, exact to degree 11.
+const SIX: [(f64, f64); 6] = [
+    (0.033_765_242_898_423_98, 0.085_662_246_189_585_17),
+    (0.169_395_306_766_867_74, 0.180_380_786_524_069_3),
+    (0.380_690_406_958_401_55, 0.233_956_967_286_345_52),
+    (0.619_309_593_041_598_4, 0.233_956_967_286_345_52),
+    (0.830_604_693_233_132_3, 0.180_380_786_524_069_3),
+    (0.966_234_757_101_576, 0.085_662_246_189_585_17),
+];
+
+/// The area by the rule of six on a grid of equal cells that has no corner inside in common with halvings.
+fn by_grid(surface: &dyn ParametricSurface, cells: usize) -> f64 {
+    let h = 1.0 / cells as f64;
+    let places: Vec<(f64, f64)> =
+        (0..cells).flat_map(|k| SIX.map(|(x, w)| ((k as f64 + x) * h, w * h))).collect();
+    let mut sum = 0.0;
+    for &(x, a) in &places {
+        for &(y, b) in &places {
+            let ([u, v], jacobian) = match surface.domain() {
+                SurfaceDomain::Rectangle([u, v]) => ([u.at(x), v.at(y)], u.length() * v.length()),
+                SurfaceDomain::Triangle => ([y * (1.0 - x), (1.0 - y) * (1.0 - x)], 1.0 - x),
+            };
+            let mut out = [DVec3::ZERO; 3];
+            surface.try_partials(u, v, &mut out).unwrap();
+            sum += a * b * jacobian * out[1].cross(out[2]).length();
+        }
+    }
+    sum
+}
+
+/// The area by three grids, and how far they lie apart.
+#[derive(Debug)]
+struct Referee {
+    area: f64,
+    spread: f64,
+}
+
+impl Referee {
+    /// By the coarsest grids that agree to `relative` and do not contradict what was measured: the finest decide.
+    fn of(surface: &dyn ParametricSurface, relative: f64, measured: &MeasuredArea) -> Self {
+        let by = |grids: [usize; 3]| {
+            let found = grids.map(|cells| by_grid(surface, cells));
+            let (low, high) = (found[0].min(found[1]).min(found[2]), found[0].max(found[1]).max(found[2]));
+            Self { area: found[2], spread: high - low }
+        };
+        let rough = by([11, 13, 19]);
+        let agrees = (rough.area - measured.area).abs() <= measured.error + rough.spread;
+        if rough.spread <= relative * rough.area && agrees { rough } else { by([61, 83, 101]) }
+    }
+}
+
+#[derive(Debug)]
+enum Surface {
+    Patch(Patch),
+    RationalPatch(RationalPatch),
+    Triangle(Triangle),
+    RationalTriangle(RationalTriangle),
+}
+
+impl Surface {
+    fn any(&self) -> &dyn ParametricSurface {
+        match self {
+            Self::Patch(s) => s,
+            Self::RationalPatch(s) => s,
+            Self::Triangle(s) => s,
+            Self::RationalTriangle(s) => s,
+        }
+    }
+}
+
+/// Patches and triangles of low degree, polynomial and rational, whole or spoilt; whether it is one that folds.
+fn surface() -> impl Strategy<Value = (Surface, bool)> {
+    let coordinates = vec((-1.0..1.0, -1.0..1.0, -1.0..1.0_f64), 25);
+    let weights = vec((-1.0..1.0_f64).prop_map(|e| 10_f64.powf(e)), 25);
+    (coordinates, weights, 1..5usize, 1..5usize, any::<[bool; 3]>(), 0..5usize).prop_map(
+        |(coordinates, weights, m, n, [rational, triangle, near], spoilt)| {
+            let count = if triangle { (m + 1) * (m + 2) / 2 } else { (m + 1) * (n + 1) };
+            let mut net: Vec<DVec3> = coordinates[..count].iter().map(|&p| DVec3::from(p)).collect();
+            let row = if triangle { 2 } else { n + 1 };
+            if near && !triangle {
+                // Like a surface: a net near a grid.
+                for (k, p) in net.iter_mut().enumerate() {
+                    *p = *p * 0.5 + DVec3::new((k / row) as f64, (k % row) as f64, 0.0);
+                }
+            }
+            match spoilt {
+                // An edge, or a corner of the triangle with its neighbours, is a point.
+                1 => {
+                    let first = net[0];
+                    net[..row].fill(first);
+                }
+                // The derivative across vanishes all along an edge: a cusp.
+                2 if !triangle && m > 1 => net.copy_within(..row, row),
+                // In a plane, where it folds over.
+                3 => net.iter_mut().for_each(|p| p.z = 0.0),
+                _ => {}
+            }
+            let surface = match (triangle, rational) {
+                (false, false) => Surface::Patch(Patch::new([m, n], net).unwrap()),
+                (false, true) => {
+                    Surface::RationalPatch(RationalPatch::new([m, n], &net, &weights[..count]).unwrap())
+                }
+                (true, false) => Surface::Triangle(Triangle::new(m, net).unwrap()),
+                (true, true) => {
+                    Surface::RationalTriangle(RationalTriangle::new(m, &net, &weights[..count]).unwrap())
+                }
+            };
+            (surface, spoilt == 3)
+        },
+    )
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { max_global_rejects: 1 << 20, max_local_rejects: 1 << 20, ..ProptestConfig::default() })]
+
+    /// The stated error holds against another rule on another grid. Cases where its grids differ by more than a
+    /// quarter of the error asked for are left out: there it is no referee.
+    #[test]
+    fn stated_errors_hold((surface, folded) in surface(), exponent in 2.0..6.0_f64) {
+        let relative = 10_f64.powf(if folded { -0.5 * exponent - 1.0 } else { -exponent });
+        match surface.any().area_with_error(relative) {
+            Ok(measured) => {
+                prop_assert!(measured.error <= relative * measured.area);
+                let referee = Referee::of(surface.any(), 0.25 * relative, &measured);
+                prop_assume!(referee.spread <= 0.25 * relative * referee.area);
+                let off = (measured.area - referee.area).abs();
+                prop_assert!(off <= measured.error + referee.spread + 1e-13 * referee.area,
+                    "{off:e} off, {:e} stated, {relative:e} asked for, {referee:?}", measured.error);
+            }
+            Err(ShapeError::Area { area, reached, cells, .. }) => {
+                prop_assert!(reached > relative && (cells >= 8000 || area < 1e-9), "{area:e} {reached:e} {cells}");
+                return Err(TestCaseError::reject("not reached"));
+            }
+            Err(other) => prop_assert!(false, "{other}"),
+        }
+    }
+}
+
+/// Where places are large beside the surface their rounding is in the derivatives, and in the stated error.
+#[test]
+fn far_from_the_origin() {
+    for rational in [false, true] {
+        let at = |far: f64| {
+            let net: Vec<DVec3> = (0..16)
+                .map(|k| {
+                    DVec3::new((k / 4) as f64, (k % 4) as f64, f64::from(k * k % 7) / 4.0) + DVec3::splat(far)
+                })
+                .collect();
+            let weights: Vec<f64> =
+                (0..16).map(|k| if rational { 1.0 + f64::from(k % 5) / 4.0 } else { 1.0 }).collect();
+            RationalPatch::new([3, 3], &net, &weights).unwrap()
+        };
+        let exact = at(0.0).area_with_error(1e-13).unwrap();
+        let far = at(1048576.0);
+        let measured = far.area_with_error(1e-6).unwrap();
+        assert!((measured.area - exact.area).abs() <= measured.error + exact.error, "{measured:?} {exact:?}");
+        assert!(measured.error > 1e-11 * measured.area);
+        // It is known from the rounding that more cells are no help.
+        assert!(matches!(far.area(1e-12), Err(ShapeError::Area { cells, .. }) if cells < 1000));
     }
 }

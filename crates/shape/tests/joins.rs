@@ -3,11 +3,12 @@
 
 mod support;
 
+use casteljau_bernstein::{elevate, value};
 use casteljau_geom::Interval;
 use casteljau_geom::glam::DVec3;
 use casteljau_shape::{
-    CurvatureCondition, Curve, JoinReport, JoinTolerance, ParametricSurface, Patch, PatchEdge, RationalCurve,
-    RationalPatch, RationalTriangle, ShapeError, SurfaceEdge,
+    CurvatureCondition, Curve, JoinReport, JoinTolerance, ParametricCurve, ParametricSurface, Patch,
+    PatchEdge, RationalCurve, RationalPatch, RationalTriangle, ShapeError, SurfaceEdge,
 };
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -96,6 +97,113 @@ proptest! {
         }
     }
 
+    /// The condition on control points and weights tells of curvatures what jets tell.
+    #[test]
+    fn rational_conditions_are_those_of_jets(
+        c in curve(), bump in vec(0.3..3.0, 8), ratio in 0.2..5.0, slide in -2.0..2.0, v1 in 0.3..3.0, v2 in 0.3..3.0,
+        free in vec(point(), 1..4), bent in 0.1..4.0_f64, negative in any::<bool>(), common in 0.3..3.0_f64,
+    ) {
+        let points = c.control_points();
+        let first = RationalCurve::new(points, &bump[..points.len()]).unwrap();
+        let lifted: Vec<_> = free.iter().zip(&bump).map(|(p, w)| (*p * *w).extend(*w)).collect();
+        let right = first.continued_with_curvature(ratio, slide, [v1, v2], &lifted).unwrap();
+        let condition = CurvatureCondition::measure(&first, &right).unwrap();
+        let jets = [first.try_jet(first.interval().end()).unwrap(), right.try_jet(right.interval().start()).unwrap()];
+        let [k, l] = jets.map(|jet| jet.curvature().unwrap());
+        prop_assume!(k > 0.01);
+        prop_assert!(condition.is_sufficient(1e-9) && (k - l).abs() < 1e-9 * k, "{condition:?} {k} {l}");
+        // The weight of Q₂ is a factor of the curvature, so another one spoils that and nothing else; a negative one
+        // turns it over.
+        let mut net = right.control_points().to_vec();
+        let place: DVec3 = net[2].truncate() / net[2].w;
+        let weight = net[2].w * bent * if negative { -1.0 } else { 1.0 };
+        net[2] = (place * weight).extend(weight);
+        let other = RationalCurve::from_homogeneous(net).unwrap();
+        let condition = CurvatureCondition::measure(&first, &other).unwrap();
+        let jet = other.try_jet(0.0).unwrap();
+        let l = jet.curvature().unwrap();
+        prop_assert!((condition.ratio - (k - l).abs() / k.max(l)).abs() < 1e-9, "{condition:?} {k} {l}");
+        prop_assert!((l - k * bent).abs() < 1e-9 * k.max(l));
+        prop_assert_eq!(condition.is_necessary(1e-9), !negative, "{:?}", condition);
+        // What multiplies all weights, or the i-th by cⁱ, changes the curve's parameters at most.
+        let again = |curve: &RationalCurve| {
+            let net = curve.control_points().iter().enumerate().map(|(i, p)| *p * common.powi(i as i32 + 1));
+            RationalCurve::from_homogeneous(net.collect::<Vec<_>>()).unwrap()
+        };
+        let same = CurvatureCondition::measure(&again(&first), &again(&right)).unwrap();
+        prop_assert!(same.is_sufficient(1e-9), "{same:?}");
+        let negated = RationalCurve::from_homogeneous(first.control_points().iter().map(|p| *p * -1.0).collect::<Vec<_>>()).unwrap();
+        prop_assert!(CurvatureCondition::measure(&negated, &right).unwrap().is_sufficient(1e-9));
+        // A curve that is polynomial is one with equal weights.
+        let plain = CurvatureCondition::measure(&c, &other).unwrap();
+        let lifted = CurvatureCondition::measure(&RationalCurve::from(c.clone()), &other).unwrap();
+        prop_assert_eq!(plain, lifted);
+    }
+
+    /// α is k(t − c)² + ε, elevated: it is positive if and only if ε is, whatever the signs of its coefficients.
+    #[test]
+    fn ratios_are_refused_where_they_are_not_positive(
+        c in 0.05..0.95_f64, k in 0.5..20.0_f64, exponent in -9.0..-0.5_f64, raised in 2..9usize,
+    ) {
+        let flat = Patch::new([1, 1], [DVec3::ZERO, DVec3::Y, DVec3::X, DVec3::new(1.0, 1.0, 0.3)]).unwrap();
+        let alpha = |epsilon: f64| {
+            let quadratic = [k * c * c + epsilon, -k * c * (1.0 - c) + epsilon, k * (1.0 - c).powi(2) + epsilon];
+            let mut out = vec![0.0; raised + 1];
+            elevate(&quadratic, &mut out).unwrap();
+            out
+        };
+        let epsilon = 10_f64.powf(exponent);
+        let continued = |alpha: &[f64]| flat.continued_varying(PatchEdge::UEnd, alpha, &[], &[]);
+        let next = continued(&alpha(epsilon));
+        prop_assert!(next.is_ok(), "{next:?}");
+        let below = alpha(-epsilon);
+        match continued(&below) {
+            Err(ShapeError::Ratio { at, value: found }) => {
+                prop_assert!((0.0..=1.0).contains(&at) && found <= 0.0 && found == value(&below, at));
+                prop_assert!(k * (at - c).powi(2) <= epsilon * (1.0 + 1e-6) || below[0] <= 0.0, "{at} {c}");
+            }
+            other => prop_assert!(false, "{other:?}"),
+        }
+    }
+
+    /// The report gives back the ratio that a patch was continued with, divided by its first value as the interval is.
+    #[test]
+    fn reports_give_the_ratio_along_the_edge(
+        points in vec(point(), 16), weights in vec(0.5..2.0, 16), alpha in vec(0.3..3.0, 1..5),
+        beta in vec(-1.0..1.0, 0..4), edge in 0..4usize, length in 0.1..10.0_f64,
+    ) {
+        let net: Vec<DVec3> = (0..16).map(|k| DVec3::new((k / 4) as f64, (k % 4) as f64, points[k].z)).collect();
+        let patch = RationalPatch::new([3, 3], &net, &weights).unwrap();
+        let edge = PatchEdge::ALL[edge];
+        let next = patch.continued_varying(edge, &alpha, &beta, &[]).unwrap();
+        let ratio = |next: &RationalPatch, samples: usize| {
+            let (a, b) = (SurfaceEdge::of_patch(&patch, edge).unwrap(), SurfaceEdge::of_patch(next, PatchEdge::UStart).unwrap());
+            JoinReport::along_edge(&a, &b, samples).unwrap().ratio.unwrap()
+        };
+        let found = ratio(&next, 17);
+        for (got, at) in [(found.least, found.least_at), (found.largest, found.largest_at)] {
+            let exact = value(&alpha, at) / alpha[0];
+            prop_assert!((got - exact).abs() < 1e-10 * (1.0 + exact), "{got} instead of {exact} at {at}");
+        }
+        for k in 0..=16 {
+            let at = (std::f64::consts::FRAC_PI_2 * f64::from(k) / 16.0).sin().powi(2);
+            let exact = value(&alpha, at) / alpha[0];
+            prop_assert!(found.least <= exact + 1e-10 && exact <= found.largest + 1e-10, "{found:?} {exact} at {at}");
+        }
+        let spread = alpha.iter().fold(0.0, |most: f64, a| most.max((a - alpha[0]).abs()));
+        prop_assert!(alpha.len() > 1 || found.is_constant(1e-10));
+        prop_assert!(spread < 0.1 || !found.is_constant(1e-6), "{found:?}");
+        // Over an interval that is longer, the derivatives across are shorter.
+        let [across, along] = next.intervals();
+        let longer = next.clone().with_intervals([Interval::new(0.0, across.length() * length).unwrap(), along]);
+        let scaled = ratio(&longer, 17);
+        prop_assert!((scaled.largest * length - found.largest).abs() < 1e-10 * found.largest);
+        // Folded back the ratio is negative.
+        let (a, back) = (SurfaceEdge::of_patch(&patch, edge).unwrap(), SurfaceEdge::of_patch(&patch, edge).unwrap());
+        let fold = JoinReport::along_edge(&a, &back, 5).unwrap().ratio.unwrap();
+        prop_assert!((fold.least + 1.0).abs() < 1e-12 && fold.is_constant(1e-12));
+    }
+
     /// Tangent planes agree where the ratio varies; a constant one is the plain rule.
     #[test]
     fn continued_varying_patches(
@@ -109,6 +217,25 @@ proptest! {
         let (a, b) = (SurfaceEdge::of_patch(&patch, edge).unwrap(), SurfaceEdge::of_patch(&next, PatchEdge::UStart).unwrap());
         let report = JoinReport::along_edge(&a, &b, 17).unwrap();
         prop_assert!(report.gap.value < 1e-13 && report.angle.unwrap().value < 1e-4, "{report:?}");
+        // Across the joint the derivative is α of that before it and β of that along it, by the formula.
+        for k in 0..=8 {
+            let t = f64::from(k) / 8.0;
+            let (u, v, sign) = match edge {
+                PatchEdge::UStart => (0.0, t, -1.0),
+                PatchEdge::UEnd => (1.0, t, 1.0),
+                PatchEdge::VStart => (t, 0.0, -1.0),
+                PatchEdge::VEnd => (t, 1.0, 1.0),
+            };
+            let jet = patch.jet(u, v).unwrap();
+            let (out, along) = match edge {
+                PatchEdge::UStart | PatchEdge::UEnd => (jet.du * sign, jet.dv),
+                _ => (jet.dv * sign, jet.du),
+            };
+            let slide = if beta.is_empty() { 0.0 } else { value(&beta, t) };
+            let wanted = out * (value(&alpha, t) / 3.0) + along * slide;
+            let got = next.jet(0.0, t).unwrap().du * next.intervals()[0].length();
+            prop_assert!(got.distance(wanted) < 1e-12 * (1.0 + wanted.length()), "{got} instead of {wanted} at {t}");
+        }
         let constant = patch.continued_varying(edge, &alpha[..1], &[], &[]).unwrap();
         let plain = patch.continued(edge, alpha[0], &[]).unwrap();
         for (p, q) in constant.control_points().iter().zip(plain.control_points()) {
@@ -198,7 +325,8 @@ fn figures() {
     let dot = Curve::new([DVec3::X]).unwrap();
     let report = JoinReport::of_curves(&line, &dot).unwrap();
     assert_eq!((report.angle, report.undecided), (None, 1));
-    assert!(!report.continuity(&TIGHT).g1);
+    assert!(!report.continuity(&TIGHT).g1 && report.ratio.is_some_and(|ratio| ratio.largest == 0.0));
+    assert_eq!(JoinReport::of_curves(&dot, &line).unwrap().ratio, None);
     // A circle goes on as another of twice the radius: G1, and the curvatures 1 and ½.
     let quarter =
         |r: f64| RationalCurve::arc(DVec3::X * (1.0 - r), DVec3::X * r, DVec3::Y * r, 1.0).unwrap().remove(0);
@@ -288,6 +416,16 @@ fn doors() {
         assert!(flat.continued_varying(PatchEdge::UEnd, alpha, beta, &[]).is_err());
     }
     assert!(flat.continued_varying(PatchEdge::UEnd, &[1.0, 2.0], &[], &[DVec3::X]).is_err());
+    // (1 − 2t)² touches 0 in the middle, t² at the start; 1 − 2t changes its sign; −1 is never positive.
+    let refused = |alpha: &[f64]| flat.continued_varying(PatchEdge::UEnd, alpha, &[], &[]).unwrap_err();
+    assert!(
+        matches!(refused(&[1.0, -1.0, 1.0]), ShapeError::Ratio { at, value } if (at - 0.5).abs() < 1e-6 && value.abs() < 1e-12)
+    );
+    assert_eq!(refused(&[0.0, 0.0, 1.0]), ShapeError::Ratio { at: 0.0, value: 0.0 });
+    assert_eq!(refused(&[1.0, 0.0, 0.0]), ShapeError::Ratio { at: 1.0, value: 0.0 });
+    assert!(matches!(refused(&[1.0, -1.0]), ShapeError::Ratio { at, value } if at > 0.5 && value < 0.0));
+    assert_eq!(refused(&[-1.0, -1.0, -1.0]), ShapeError::Ratio { at: 0.0, value: -1.0 });
+    assert!(matches!(refused(&[1.0, f64::NAN]), ShapeError::Construction { .. }));
     let triangle = RationalTriangle::new(0, &[DVec3::X], &[1.0]).unwrap();
     assert!(SurfaceEdge::of_patch(&triangle, PatchEdge::UEnd).is_err());
     assert!(SurfaceEdge::of_triangle(&triangle, 3).is_err() && SurfaceEdge::of_triangle(&flat, 0).is_err());

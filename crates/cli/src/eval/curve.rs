@@ -1,3 +1,5 @@
+use casteljau::geom::CurveJet;
+use casteljau::glam::DVec3;
 use casteljau::shape::{ParametricCurve, ShapeError};
 use serde::Serialize;
 
@@ -6,7 +8,8 @@ use crate::failure::Failure;
 use crate::number::{human, optional, tuple};
 use crate::output::Lines;
 
-/// A curve at one parameter. There is no tangent where C′ = 0, and no torsion where there is no osculating plane.
+/// A curve at one parameter. There is no tangent where C′ = 0, and no torsion where there is no osculating plane;
+/// what leaves the range of numbers is not there either.
 #[derive(Serialize)]
 pub struct Answer {
     shape: usize,
@@ -28,24 +31,24 @@ pub fn answer(
     rational: bool,
     order: Option<usize>,
 ) -> Result<Answer, ShapeError> {
-    let jet = curve.try_jet(t)?;
-    let partials = match order {
-        None => Partials::default(),
-        Some(order) => {
-            let jet = curve.try_jet_of_order(t, order)?;
-            let named = jet.as_slice().iter().enumerate();
-            Partials(named.map(|(k, d)| (k.to_string(), Some(d.to_array()))).collect())
-        }
-    };
+    let derivatives = curve.try_existing_partials(t, order.map_or(3, |order| order.max(3)))?;
+    // What is computed from a derivative that does not exist does not exist.
+    let derivative = |k: usize| derivatives.get(k).copied().flatten().unwrap_or(DVec3::NAN);
+    let point = derivative(0);
+    let jet = CurveJet { point, d1: derivative(1), d2: derivative(2), d3: derivative(3) };
+    let jet = jet.rescaled(curve.interval().length());
+    let told = order.map_or(0, |order| order + 1);
+    let named = derivatives.iter().take(told).enumerate();
+    let partials = named.map(|(k, d)| (k.to_string(), d.map(|d| d.to_array()))).collect();
     Ok(Answer {
         shape,
         params: [t],
-        point: jet.point.to_array(),
+        point: point.to_array(),
         weight: rational.then(|| curve.weight(t)),
         tangent: jet.tangent().map(|d| d.to_array()),
         curvature: jet.curvature(),
         torsion: jet.frenet_frame().map(|frame| frame.torsion),
-        partials,
+        partials: Partials(partials),
     })
 }
 

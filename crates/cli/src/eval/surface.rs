@@ -1,4 +1,4 @@
-use casteljau::geom::multi_indices;
+use casteljau::geom::{GeomError, multi_indices};
 use casteljau::shape::{ParametricSurface, ShapeError};
 use serde::Serialize;
 
@@ -8,7 +8,7 @@ use crate::number::{human, optional, tuple};
 use crate::output::Lines;
 
 /// A patch or a triangle at one parameter. Signs follow the normal ∂u × ∂v; where that collapses there are no curvatures,
-/// and the normal is its limit from inside, if there is one.
+/// and the normal is its limit from inside, if there is one. What leaves the range of numbers is not there either.
 #[derive(Serialize)]
 pub struct Answer {
     shape: usize,
@@ -37,9 +37,9 @@ pub fn answer(
     let partials = match order {
         None => Partials::default(),
         Some(order) => {
-            let jet = surface.try_jet_of_order(u, v, order)?;
-            let named = multi_indices::<2>(order).zip(jet.as_slice());
-            Partials(named.map(|([a, b], d)| (format!("{a},{b}"), Some(d.to_array()))).collect())
+            let partials = surface.try_existing_partials(u, v, order)?;
+            let named = multi_indices::<2>(order).zip(partials);
+            Partials(named.map(|([a, b], d)| (format!("{a},{b}"), d.map(|d| d.to_array()))).collect())
         }
     };
     Ok(Answer {
@@ -55,11 +55,14 @@ pub fn answer(
     })
 }
 
-/// Where derivatives collapse there is no answer, which is no error.
+/// Where derivatives collapse or leave the range of numbers there is no answer, which is no error at a point that exists.
 fn existing<T>(answer: Result<T, ShapeError>) -> Result<Option<T>, ShapeError> {
     match answer {
         Ok(answer) => Ok(Some(answer)),
-        Err(ShapeError::NoTangentPlane { .. }) => Ok(None),
+        Err(
+            ShapeError::NoTangentPlane { .. }
+            | ShapeError::Evaluation { source: GeomError::Overflow { .. }, .. },
+        ) => Ok(None),
         Err(error) => Err(error),
     }
 }

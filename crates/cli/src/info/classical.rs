@@ -139,8 +139,8 @@ fn length(found: Result<f64, ShapeError>) -> Result<Measure, ShapeError> {
 }
 
 fn area(surface: &dyn ParametricSurface) -> Result<Measure, ShapeError> {
-    let (area, error) = match surface.area(ACCURACY) {
-        Ok(area) => (Some(area), Some(ACCURACY * area)),
+    let (area, error) = match surface.area_with_error(ACCURACY) {
+        Ok(measured) => (Some(measured.area), Some(measured.error)),
         Err(ShapeError::Area { area: 0.0, .. }) => (Some(0.0), None),
         Err(ShapeError::Area { area, reached, .. }) => (Some(area), Some(reached * area)),
         Err(ShapeError::Unbounded | ShapeError::Evaluation { .. }) => (None, None),

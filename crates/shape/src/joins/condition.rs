@@ -1,16 +1,22 @@
 //! When two curves join with continuous curvature, read off their control points.
 
-use casteljau_geom::glam::DVec3;
+use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
 use casteljau_geom::{COLLAPSE, angle_degrees};
 
-use crate::Curve;
+use crate::control_point::private::Projective;
+use crate::{BezierCurve, ControlPoint};
 
 /// The conditions on control points for continuous curvature where one curve ends and another starts.
 ///
 /// For cubics P and Q with P₃ = Q₀ it is necessary that P₂, P₃, Q₁ are collinear and P₁, P₂, P₃, Q₁, Q₂ coplanar.
 /// That is not sufficient: it leaves the curvatures free. With h and d the distances of P₁ and Q₂ from the common
-/// tangent, on one side of it, they agree if and only if `d/|Q₁−Q₀|² = h/|P₃−P₂|²`; for degrees n and m the
-/// distances carry the factors (n−1)/n and (m−1)/m.
+/// tangent, on one side of it, they agree if and only if `d/|Q₁−Q₀|² = h/|P₃−P₂|²`.
+///
+/// Of rational curves with the weights wᵢ and vᵢ the curvatures at the joint are, with the degrees n and m,
+/// `(n−1)/n · wₙwₙ₋₂/wₙ₋₁² · h/|Pₙ−Pₙ₋₁|²` and `(m−1)/m · v₀v₂/v₁² · d/|Q₁−Q₀|²`; that these agree is the ratio that
+/// is measured, for any degrees. The points that have to be collinear and coplanar are the same, the Euclidean ones.
+/// A product of weights that is negative turns the offset to the other side; a point at infinity, of weight 0, has
+/// w·P in its place.
 ///
 /// ```
 /// use casteljau_shape::{CurvatureCondition, Curve, geom::glam::DVec3};
@@ -24,7 +30,7 @@ use crate::Curve;
 /// # Ok::<(), casteljau_shape::ShapeError>(())
 /// ```
 ///
-/// Source: Farin, *Curves and Surfaces for CAGD*, 5th ed., sec. 11.2.
+/// Source: Farin, *Curves and Surfaces for CAGD*, 5th ed., sec. 11.2, and the chapter on rational curves for the weights.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CurvatureCondition {
     /// Distance of the end of the first curve from the start of the second, relative to the longer leg there.
@@ -39,27 +45,38 @@ pub struct CurvatureCondition {
 }
 
 impl CurvatureCondition {
-    /// Measures how the end of `first` and the start of `second` meet; `None` where one of the legs there vanishes,
-    /// or a curve has a degree below 2.
+    /// Measures how the end of `first` and the start of `second` meet, polynomial or rational.
+    ///
+    /// `None` where a curve has a degree below 2, where one of the legs at the joint vanishes, and where one of its
+    /// ends is at infinity.
+    ///
+    /// ```
+    /// use casteljau_shape::{CurvatureCondition, Curve, RationalCurve, geom::glam::DVec3};
+    /// // A quarter of the unit circle goes on as a parabola of curvature 1.
+    /// let circle = RationalCurve::new(&[DVec3::Y, DVec3::new(1., 1., 0.), DVec3::X], &[1., 0.5_f64.sqrt(), 1.])?;
+    /// let p = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+    /// let parabola = Curve::new([p(1., 0.), p(1., -1.), p(-1., -2.)])?;
+    /// assert!(CurvatureCondition::measure(&circle, &parabola).unwrap().is_sufficient(1e-15));
+    /// # Ok::<(), casteljau_shape::ShapeError>(())
+    /// ```
     #[must_use]
-    pub fn measure(first: &Curve, second: &Curve) -> Option<Self> {
-        let ([.., inner, before, end], [start, after, outer, ..]) =
+    pub fn measure<P: ControlPoint, Q: ControlPoint>(
+        first: &BezierCurve<P>,
+        second: &BezierCurve<Q>,
+    ) -> Option<Self> {
+        let (&[.., inner, before, end], &[start, after, outer, ..]) =
             (first.control_points(), second.control_points())
         else {
             return None;
         };
-        let (leg, next) = (end - before, after - start);
-        let (tangent, direction) = (leg.try_normalize()?, next.try_normalize()?);
-        let (h, d) = (offset(inner - before, tangent), offset(outer - after, direction));
-        let curvature = |offset: DVec3, leg: DVec3, degree: usize| {
-            offset.length() / leg.length() / leg.length() * (degree - 1) as f64 / degree as f64
-        };
-        let (k, l) = (curvature(h, leg, first.degree()), curvature(d, next, second.degree()));
+        let incoming = End::new([end, before, inner].map(P::homogeneous), first.degree())?;
+        let outgoing = End::new([start, after, outer].map(Q::homogeneous), second.degree())?;
+        let (k, l) = (incoming.bend.length(), outgoing.bend.length());
         let largest = k.max(l);
         Some(Self {
-            gap: end.distance(*start) / leg.length().max(next.length()),
-            collinear: sine(tangent, direction),
-            coplanar: sine(h, d),
+            gap: incoming.point.distance(outgoing.point) / incoming.leg.max(outgoing.leg),
+            collinear: sine(-incoming.direction, outgoing.direction),
+            coplanar: sine(incoming.bend, outgoing.bend),
             ratio: if largest > 0.0 { (k - l).abs() / largest } else { 0.0 },
         })
     }
@@ -74,6 +91,32 @@ impl CurvatureCondition {
     #[must_use]
     pub fn is_sufficient(&self, relative: f64) -> bool {
         self.is_necessary(relative) && self.ratio <= relative
+    }
+}
+
+/// The end of a curve, seen from the joint.
+struct End {
+    point: DVec3,
+    /// Length of the leg from the point to the next control point.
+    leg: f64,
+    /// Direction in which the curve leaves the joint.
+    direction: DVec3,
+    /// The curvature vector.
+    bend: DVec3,
+}
+
+impl End {
+    /// From the homogeneous control points at the joint, beside it and behind that.
+    fn new([end, beside, behind]: [DVec4; 3], degree: usize) -> Option<Self> {
+        let (point, next) = (end.euclidean()?, beside.euclidean()?);
+        let leg = next - point;
+        let (direction, length) = (leg.try_normalize()?, leg.length());
+        // Times its weight, so that a point at infinity is no exception.
+        let offset = offset(behind.xyz() - next * behind.w, direction);
+        let degrees = (degree - 1) as f64 / degree as f64;
+        let bend = offset / length / length * (degrees * (end.w / beside.w) / beside.w);
+        // C′ is n·w₁/w₀ times the leg.
+        Some(Self { point, leg: length, direction: direction * (beside.w / end.w).signum(), bend })
     }
 }
 

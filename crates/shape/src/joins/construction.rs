@@ -4,6 +4,7 @@ use casteljau_bernstein::{elevate, product};
 use casteljau_geom::Interval;
 use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
 
+use super::positive::check_positive;
 use crate::error::check_points;
 use crate::{BezierCurve, BezierPatch, ControlPoint, Curve, PatchEdge, RationalCurve, ShapeError};
 
@@ -179,7 +180,8 @@ impl<P: ControlPoint> BezierPatch<P> {
     /// ```
     ///
     /// # Errors
-    /// [`ShapeError::Construction`] unless all coefficients of α are positive and finite and those of β are finite;
+    /// [`ShapeError::Ratio`] where α is not positive on `[0, 1]`, whatever the signs of its coefficients; it names a
+    /// parameter and α there. [`ShapeError::Construction`] without coefficients of α, and for one that is not finite;
     /// otherwise those of [`continued`](Self::continued).
     ///
     /// Source: Farin, *Curves and Surfaces for CAGD*, 5th ed., the chapter on geometric continuity of surfaces.
@@ -194,7 +196,7 @@ impl<P: ControlPoint> BezierPatch<P> {
             let value = beta.iter().copied().find(|b| !b.is_finite()).unwrap_or(0.0);
             return Err(ShapeError::Construction { what: "coefficient along the edge", value });
         };
-        alpha.iter().try_for_each(|&ratio| check_ratio(ratio))?;
+        check_positive(alpha)?;
         let simple = self.continued(edge, 1.0, &[])?;
         let n = simple.degrees()[1];
         // The row of the edge, and the one beyond it for α = 1: their difference is the leg.

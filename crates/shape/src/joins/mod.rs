@@ -2,7 +2,8 @@
 
 mod condition;
 mod construction;
+mod positive;
 mod report;
 
 pub use condition::CurvatureCondition;
-pub use report::{Continuity, JoinReport, JoinTolerance, Maximum, SurfaceEdge};
+pub use report::{Continuity, CrossRatio, JoinReport, JoinTolerance, Maximum, SurfaceEdge};

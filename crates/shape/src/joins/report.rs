@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use casteljau_geom::angle_degrees;
 use casteljau_geom::glam::{DVec2, DVec3};
+use casteljau_geom::{COLLAPSE, angle_degrees};
 
 use crate::{ParametricCurve, ParametricSurface, PatchEdge, ShapeError, SurfaceDomain};
 
@@ -14,6 +14,36 @@ pub struct Maximum {
     pub value: f64,
     /// Where: on an edge the share of the way along it, from 0 to 1; 0 for curves.
     pub at: f64,
+}
+
+/// The ratio α of the derivatives across, over the samples of an edge.
+///
+/// With D₁ the derivative of the first surface across the edge and out of it, D₂ that of the second across and into it,
+/// and T the derivative along the edge, tangent planes agree where `D₂ = αD₁ + βT`. Of the parts of D₁ and D₂ across
+/// T, `D⊥ = D − T(T·D)/|T|²`, it is `α = D₁⊥·D₂⊥/|D₁⊥|²`, which is the nearest ratio where the planes do not agree.
+/// α > 0 is a smooth joint, α < 0 a fold. It depends on the parameters across, on a triangle that from the middle of
+/// the edge to the opposite vertex; whether it is constant does not. At a joint of curves there is no T.
+///
+/// Source: Farin, *Curves and Surfaces for CAGD*, 5th ed., the chapter on geometric continuity of surfaces.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CrossRatio {
+    /// The least α.
+    pub least: f64,
+    /// Where it was found, the share of the way along the edge.
+    pub least_at: f64,
+    /// The largest α.
+    pub largest: f64,
+    /// Where it was found.
+    pub largest_at: f64,
+}
+
+impl CrossRatio {
+    /// Whether α is the same at all samples, `largest − least` being at most `relative` times the larger of their
+    /// absolute values.
+    #[must_use]
+    pub fn is_constant(&self, relative: f64) -> bool {
+        self.largest - self.least <= relative * self.least.abs().max(self.largest.abs())
+    }
 }
 
 /// How closely two shapes meet, in figures.
@@ -34,6 +64,9 @@ pub struct JoinReport {
     /// Distance of the curvature vectors, or difference of the normal curvatures across the edge, relative to the
     /// larger of them and 1/size, size being the extent of the shapes at the joint: G².
     pub curvature: Option<Maximum>,
+    /// The least and largest ratio of the derivatives across; missing where at every sample the edge's own derivative
+    /// vanishes, or that of the first shape across it.
+    pub ratio: Option<CrossRatio>,
     /// The number of samples.
     pub samples: usize,
     /// The number of samples at which some figure could not be taken.
@@ -92,6 +125,7 @@ impl JoinReport {
         figures.gap.raise(a.point.distance(b.point), 0.0);
         let lengths = [before.length(), after.length()];
         figures.derivatives([a.d1, b.d1], [a.d2, b.d2], lengths, 0.0);
+        figures.ratio(nearest_ratio(a.d1, b.d1), 0.0);
         let size = (a.d1.length() * lengths[0]).max(b.d1.length() * lengths[1]);
         let (tangents, bends) = ((a.tangent(), b.tangent()), (bend(&a), bend(&b)));
         if let (Some(s), Some(t)) = tangents {
@@ -130,6 +164,7 @@ impl JoinReport {
             if first.across.is_some() && second.across.is_some() {
                 figures.derivatives([a.first, b.first], [a.second, b.second], [a.extent, b.extent], s);
             }
+            figures.ratio(across(a.first, a.along).and_then(|d| nearest_ratio(d, b.first)), s);
             let (Some(normal), Some(other)) = (a.normal, b.normal) else {
                 figures.undecided += 1;
                 continue;
@@ -165,6 +200,19 @@ fn bend(jet: &casteljau_geom::CurveJet) -> Option<DVec3> {
     bend.is_finite().then_some(bend)
 }
 
+/// The part of d across a tangent; `None` where the tangent vanishes, or the part is rounding.
+fn across(d: DVec3, along: DVec3) -> Option<DVec3> {
+    let tangent = along.try_normalize()?;
+    let part = d - tangent * tangent.dot(d);
+    (part.length() > COLLAPSE * d.length()).then_some(part)
+}
+
+/// The α for which αd is nearest to e; `None` where there is none.
+fn nearest_ratio(d: DVec3, e: DVec3) -> Option<f64> {
+    let ratio = d.try_normalize()?.dot(e) / d.length();
+    ratio.is_finite().then_some(ratio)
+}
+
 /// Largest values in the making.
 #[derive(Default)]
 struct Figures {
@@ -173,6 +221,7 @@ struct Figures {
     angle: Largest,
     second: Largest,
     curvature: Largest,
+    ratio: Option<CrossRatio>,
     undecided: usize,
 }
 
@@ -200,6 +249,18 @@ impl Figures {
         }
     }
 
+    fn ratio(&mut self, ratio: Option<f64>, at: f64) {
+        let Some(alpha) = ratio else { return };
+        let only = CrossRatio { least: alpha, least_at: at, largest: alpha, largest_at: at };
+        let range = self.ratio.get_or_insert(only);
+        if alpha < range.least {
+            (range.least, range.least_at) = (alpha, at);
+        }
+        if alpha > range.largest {
+            (range.largest, range.largest_at) = (alpha, at);
+        }
+    }
+
     fn report(self, samples: usize) -> JoinReport {
         JoinReport {
             gap: self.gap.0.unwrap_or(Maximum { value: 0.0, at: 0.0 }),
@@ -207,6 +268,7 @@ impl Figures {
             angle: self.angle.0,
             second: self.second.0,
             curvature: self.curvature.0,
+            ratio: self.ratio,
             samples,
             undecided: self.undecided,
         }
@@ -289,6 +351,7 @@ impl<'a> SurfaceEdge<'a> {
             second: jet.duu * (across.x * across.x)
                 + jet.duv * (2.0 * across.x * across.y)
                 + jet.dvv * (across.y * across.y),
+            along: tangent,
             normal,
             curvature,
             extent: self.across.unwrap_or(1.0),
@@ -300,6 +363,8 @@ struct Sample {
     point: DVec3,
     first: DVec3,
     second: DVec3,
+    /// The derivative along the edge.
+    along: DVec3,
     normal: Option<DVec3>,
     curvature: Option<f64>,
     extent: f64,
