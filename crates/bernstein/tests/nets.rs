@@ -9,10 +9,9 @@ use casteljau_bernstein::{
     de_casteljau_scheme, elevate_along, elevate_tensor, restrict, restrict_along, restrict_tensor,
     scheme_count, subdivide_along, tensor_scheme_count, value,
 };
-use num_traits::Signed;
 use support::exact::{
     Hunter, Q, absolute_basis, absolute_pair, absolutes, along, assert_within, basis, blossom_of, choose,
-    differentiate, exact, exacts, factor, integer, pair, tensor_sum,
+    differentiate, exact, exacts, factor, integer, pair, power, tensor_sum,
 };
 use support::{assert_accurate, cases, flat, number, numbers, size};
 
@@ -136,7 +135,7 @@ fn directional_derivatives() {
             sum * support::exact::factorial(order)
         };
         // Bounded from above: |Bᵢⁿ(u)| ≤ 3ⁿ there, differences double, directions are at most 1.5.
-        let scale = integer(9).pow(total as i32) * integer(3 * total.max(1)).pow(order as i32);
+        let scale = power(&integer(9), total) * power(&integer(3 * total.max(1)), order);
         assert_within(got, &coefficient(false, false), &scale, 4, "box");
         if degrees[2] == 0 {
             let net = TensorNet::new(&points, [degrees[0], degrees[1]]).unwrap();
@@ -189,7 +188,7 @@ fn golden_solids() {
                         lower[axis] = degrees[axis].saturating_sub(o[axis]);
                         absolute.push(absolute_basis(lower[axis], &support::exact::exact(at[axis])));
                     }
-                    let scale = num_traits::ToPrimitive::to_f64(&tensor_sum(&scale, &absolute)).unwrap();
+                    let scale = tensor_sum(&scale, &absolute).to_f64();
                     let got = partials[box_partial_index(o[0], o[1], o[2])];
                     let what = format!("{} {orders} at {at:?}", case["name"]);
                     let exact = number(&exact[axis]) * weight;

@@ -224,7 +224,7 @@ fn products<const V: usize>(seed: u64, rounds: usize) {
                 let place = in_f.binary_search_by(|other| rest.cmp(other)).unwrap();
                 let weight = index.iter().zip(b).fold(Q::one(), |w, (&g, &b)| w * choose(g, b));
                 let term = x * &of_f[place] * weight / choose(n + m, n);
-                scale += num_traits::Signed::abs(&term);
+                scale += term.abs();
                 truth += term;
             }
             let scale = scale + exact(f64::MIN_POSITIVE) / exact(U);
@@ -244,7 +244,7 @@ fn products<const V: usize>(seed: u64, rounds: usize) {
             let size: Q = l.iter().sum();
             let outside = num_traits::pow(size, degree);
             let scale = (value(&absolutes(&of_p), n, &l) + value(&absolutes(&of_f), m, &l)) * outside;
-            let off = num_traits::Signed::abs(&(value(&exacts(&sum), degree, &lambda) - truth));
+            let off = (value(&exacts(&sum), degree, &lambda) - truth).abs();
             assert!(off <= scale * exact(U) * integer(factor(degree + V, 0)), "sum");
         }
     }

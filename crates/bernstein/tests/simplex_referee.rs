@@ -3,7 +3,7 @@
 
 mod support;
 
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Zero};
 
 use casteljau_bernstein::{
     SimplexNet, WedgeNet, last_barycentric, simplex_basis, simplex_basis_partials, simplex_count,
@@ -13,7 +13,15 @@ use support::exact::{
     Hunter, Q, absolute_pair, absolutes, assert_within, differentiate, dot, exact, exacts, factor, integer,
     pair,
 };
-use support::simplices::{absolute, basis, blossom, differentiated, floor, indices};
+use support::simplices::{absolute, basis, blossom, differentiated, floor, indices, place};
+
+#[test]
+fn places_of_the_referee_count_up() {
+    for (vertices, degree) in [(2, 9), (3, 0), (3, 12), (4, 11)] {
+        let places: Vec<usize> = indices(vertices, degree).iter().map(|index| place(index)).collect();
+        assert!(places.iter().copied().eq(0..places.len()), "{vertices} {degree}: {places:?}");
+    }
+}
 
 fn values<const V: usize>(seed: u64, cases: usize, most: usize) {
     let mut hunter = Hunter::new(seed);

@@ -154,7 +154,7 @@ fn products_and_sums() {
                         let weight =
                             &ways * choose(o, i) * choose(l, k - i) / choose(o + l, k) / choose(n + m, n);
                         let term = &of_p[b * (o + 1) + i] * &of_f[other * (l + 1) + k - i] * weight;
-                        scale += num_traits::Signed::abs(&term);
+                        scale += term.abs();
                         truth += term;
                     }
                 }

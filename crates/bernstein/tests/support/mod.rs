@@ -2,6 +2,7 @@
 #![allow(dead_code)] // every test file uses its own share of this
 
 pub mod exact;
+pub mod rational;
 pub mod simplices;
 
 use std::path::PathBuf;
