@@ -19,7 +19,7 @@ fn hulls() {
 #[test]
 fn extremes_on_the_interval() {
     let mut hunter = Hunter::new(41);
-    for _ in 0..500 {
+    for _ in 0..1000 {
         let n = hunter.degree(30);
         let points: Vec<f64> = (0..=n).map(|_| hunter.unit() * 2.0 - 1.0).collect();
         let found = extremes(&points, [n], 1e-10).unwrap();
@@ -49,7 +49,7 @@ fn extremes_over_square_and_cube() {
     );
     assert!((found.maximum[1] - (0.5625 + 0.25 - 1.0)).abs() <= 1e-12);
     let mut hunter = Hunter::new(42);
-    for _ in 0..40 {
+    for _ in 0..1000 {
         let degrees = [0; 3].map(|_: usize| hunter.below(4));
         let points: Vec<f64> =
             (0..degrees.iter().map(|d| d + 1).product()).map(|_| hunter.unit() * 2.0 - 1.0).collect();

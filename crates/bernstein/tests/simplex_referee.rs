@@ -26,7 +26,8 @@ fn places_of_the_referee_count_up() {
 fn values<const V: usize>(seed: u64, cases: usize, most: usize) {
     let mut hunter = Hunter::new(seed);
     for case in 0..cases {
-        let n = if case == 0 { most } else { hunter.degree(most.min(20)) };
+        // One in a hundred up to the limit.
+        let n = if case == 0 { most } else { hunter.degree_of(9, most, 100) };
         let (points, lambda) = (hunter.numbers(simplex_count::<V>(n)), hunter.barycentric::<V>());
         let (q, l) = (exacts(&points), exacts(&lambda));
         let truth = dot(&basis(n, &l), &q);
@@ -63,11 +64,12 @@ fn values_over_intervals() {
     values::<2>(13, 1000, 100);
 }
 
-fn partials<const V: usize>(seed: u64, cases: usize, most: usize) {
+/// Degrees up to `most`, one in `rarely` of them; of a high one derivatives to order 2.
+fn partials<const V: usize>(seed: u64, cases: usize, most: usize, rarely: usize) {
     let mut hunter = Hunter::new(seed);
     for case in 0..cases {
-        let n = if case == 0 { most } else { hunter.below(6) };
-        let order = if case == 0 { 2 } else { hunter.below(5) };
+        let n = if case == 0 { most } else { hunter.degree_of(5, most, rarely) };
+        let order = if n > 5 { 2 } else { hunter.below(5) };
         let (points, lambda) = (hunter.numbers(simplex_count::<V>(n)), hunter.barycentric::<V>());
         let (q, l) = (exacts(&points), exacts(&lambda));
         let net = SimplexNet::<_, V>::new(&points, n).unwrap();
@@ -99,19 +101,19 @@ fn partials<const V: usize>(seed: u64, cases: usize, most: usize) {
 
 #[test]
 fn partials_over_triangles() {
-    partials::<3>(21, 1000, 20);
+    partials::<3>(21, 1000, 40, 100);
 }
 
 #[test]
 fn partials_over_tetrahedra() {
-    partials::<4>(22, 1000, 10);
+    partials::<4>(22, 1000, 40, 400);
 }
 
 /// Blossoms, and directional derivatives as blossoms with vectors among the arguments.
 fn blossoms<const V: usize>(seed: u64, cases: usize) {
     let mut hunter = Hunter::new(seed);
     for _ in 0..cases {
-        let n = hunter.below(7);
+        let n = hunter.degree_of(6, 40, if V == 3 { 100 } else { 400 });
         let points = hunter.numbers(simplex_count::<V>(n));
         let q = exacts(&points);
         let net = SimplexNet::<_, V>::new(&points, n).unwrap();
@@ -171,8 +173,11 @@ fn the_last_barycentric_keeps_its_digits() {
 fn wedges() {
     let mut hunter = Hunter::new(51);
     for case in 0..1000 {
-        let (n, o) = if case == 0 { (12, 12) } else { (hunter.below(5), hunter.below(5)) };
-        let order = if case == 0 { 1 } else { hunter.below(4) };
+        let (n, o) = match case {
+            0 => (20, 20),
+            _ => (hunter.degree_of(4, 20, 50), hunter.degree_of(4, 20, 50)),
+        };
+        let order = if n.max(o) > 4 { 1 } else { hunter.below(4) };
         let points = hunter.numbers(WedgeNet::<f64>::count([n, o]));
         let (lambda, w) = (hunter.barycentric::<3>(), hunter.parameter());
         let net = WedgeNet::new(&points, [n, o]).unwrap();

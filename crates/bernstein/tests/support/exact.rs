@@ -246,4 +246,13 @@ impl Hunter {
             self.below(most + 1)
         }
     }
+
+    /// Degrees of a box: small, one in forty 20 along one axis.
+    pub fn box_degrees(&mut self) -> [usize; 3] {
+        let mut degrees = [0; 3].map(|_: usize| self.below(4));
+        if self.below(40) == 0 {
+            degrees[self.below(3)] = 20;
+        }
+        degrees
+    }
 }

@@ -71,6 +71,11 @@ pub fn parameter() -> impl Strategy<Value = f64> {
     ]
 }
 
+/// The number of control points of a tensor net.
+pub fn count(degrees: &[usize]) -> usize {
+    degrees.iter().map(|d| d + 1).product()
+}
+
 /// The numbers of a nested array, `depth` arrays deep, in order.
 pub fn flat(value: &Value, depth: usize) -> Vec<f64> {
     match depth {
