@@ -11,14 +11,14 @@ use casteljau_bernstein::{
 };
 use support::exact::{
     Hunter, Q, absolutes, assert_within, choose, dot, exact, exacts, factor, factorial, integer, power,
-    powers, product as product_line, value as exact_value,
+    powers, product as product_line, rounds, value as exact_value,
 };
 use support::{U, assert_accurate, cases, count, flat, numbers, size};
 
 #[test]
 fn products_on_the_interval() {
     let mut hunter = Hunter::new(21);
-    for round in 0..1000 {
+    for round in 0..rounds(1000) {
         let (m, n) = match round {
             0 => (100, 100),
             1 => (3, 197),
@@ -46,7 +46,7 @@ fn products_on_the_interval() {
 #[test]
 fn products_of_nets() {
     let mut hunter = Hunter::new(22);
-    for round in 0..1000 {
+    for round in 0..rounds(1000) {
         // One in a hundred of degree 20 along an axis.
         let [mut a_degrees, mut b_degrees] = [0; 2].map(|_: usize| [0; 3].map(|_: usize| hunter.below(3)));
         if round % 100 == 0 {
@@ -125,7 +125,7 @@ fn golden_products() {
 #[test]
 fn sums_of_different_degrees() {
     let mut hunter = Hunter::new(23);
-    for _ in 0..1000 {
+    for _ in 0..rounds(1000) {
         let (a, b) = (hunter.degree(100), hunter.degree(100));
         let (a, b) = (hunter.numbers(a + 1), hunter.numbers(b + 1));
         let mut out = vec![0.0; a.len().max(b.len())];
@@ -183,7 +183,7 @@ fn to_power_line(points: &[Q], [a, b]: [&Q; 2], absolute: bool) -> Vec<Q> {
 #[test]
 fn conversion_from_and_to_the_power_basis() {
     let mut hunter = Hunter::new(24);
-    for round in 0..1000 {
+    for round in 0..rounds(1000) {
         let n = [100, 60, 40].get(round).copied().unwrap_or_else(|| hunter.degree(40));
         let list = hunter.numbers(n + 1);
         let interval = match hunter.below(4) {
@@ -258,7 +258,7 @@ fn golden_conversion() {
 #[test]
 fn integrals_and_moments() {
     let mut hunter = Hunter::new(25);
-    for _ in 0..1000 {
+    for _ in 0..rounds(1000) {
         let n = hunter.degree(100);
         let points = hunter.numbers(n + 1);
         let (q, absolute) = (exacts(&points), absolutes(&exacts(&points)));
@@ -359,7 +359,7 @@ fn condition(n: usize, m: usize) -> f64 {
 #[test]
 fn reduction_undoes_elevation() {
     let mut hunter = Hunter::new(27);
-    for round in 0..1000 {
+    for round in 0..rounds(1000) {
         let n = if round < 5 { 40 } else { 2 + hunter.below(29) };
         let m = 1 + hunter.below(n);
         let points: Vec<f64> = (0..=m).map(|_| hunter.unit() * 2.0 - 1.0).collect();
@@ -382,7 +382,7 @@ fn reduction_undoes_elevation() {
 #[test]
 fn reduction_is_the_best_one_and_its_bound_holds() {
     let mut hunter = Hunter::new(28);
-    for _ in 0..1000 {
+    for _ in 0..rounds(1000) {
         let n = 2 + hunter.below(20);
         let m = hunter.below(n + 1);
         let points: Vec<f64> = (0..=n).map(|_| hunter.unit() * 2.0 - 1.0).collect();

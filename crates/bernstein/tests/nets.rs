@@ -9,7 +9,7 @@ use casteljau_bernstein::{
 };
 use support::exact::{
     Hunter, Q, absolute_basis, absolute_pair, absolutes, along, assert_within, basis, blossom_of, choose,
-    differentiate, exact, exacts, factor, integer, pair, tensor_sum,
+    differentiate, exact, exacts, factor, integer, pair, rounds, tensor_sum,
 };
 use support::simplices::{basis as simplex_basis, indices};
 use support::{U, assert_accurate, cases, count, flat, number, numbers, size};
@@ -43,7 +43,7 @@ fn partial(points: &[Q], degrees: &[usize], at: &[f64], orders: &[usize], absolu
 #[test]
 fn box_values_and_partials() {
     let mut hunter = Hunter::new(3);
-    for round in 0..1000 {
+    for round in 0..rounds(1000) {
         let degrees = if round == 0 { [20, 20, 2] } else { hunter.box_degrees() };
         let at = [hunter.parameter(), hunter.parameter(), hunter.parameter()];
         let points = hunter.numbers(count(&degrees));
@@ -68,7 +68,7 @@ fn box_values_and_partials() {
 #[test]
 fn quad_values_and_partials() {
     let mut hunter = Hunter::new(12);
-    for round in 0..1000 {
+    for round in 0..rounds(1000) {
         let degrees = if round == 0 { [20; 2] } else { [0; 2].map(|_: usize| hunter.degree_of(6, 20, 50)) };
         let at = [hunter.parameter(), hunter.parameter()];
         let points = hunter.numbers(count(&degrees));
@@ -108,7 +108,7 @@ fn partials_come_by_order_then_descending() {
 #[test]
 fn directional_derivatives() {
     let mut hunter = Hunter::new(4);
-    for round in 0..1000 {
+    for round in 0..rounds(1000) {
         let degrees = if round == 0 { [20, 3, 20] } else { hunter.box_degrees() };
         let points = hunter.numbers(count(&degrees));
         let at = [hunter.parameter(), hunter.parameter(), hunter.parameter()];
@@ -176,7 +176,7 @@ fn golden_solids() {
 #[test]
 fn blossoms() {
     let mut hunter = Hunter::new(5);
-    for _ in 0..1000 {
+    for _ in 0..rounds(1000) {
         let n = hunter.degree(100);
         let (points, arguments) = (hunter.numbers(n + 1), (0..n).map(|_| hunter.parameter()));
         let arguments: Vec<f64> = arguments.collect();
@@ -198,7 +198,7 @@ fn blossoms() {
 #[test]
 fn tensor_blossoms_are_blossoms_of_blossoms() {
     let mut hunter = Hunter::new(6);
-    for _ in 0..1000 {
+    for _ in 0..rounds(1000) {
         let degrees = hunter.box_degrees();
         let points = hunter.numbers(count(&degrees));
         let arguments = degrees.map(|n| (0..n).map(|_| hunter.parameter()).collect::<Vec<_>>());
@@ -220,7 +220,7 @@ fn tensor_blossoms_are_blossoms_of_blossoms() {
 #[test]
 fn schemes_of_surface_points() {
     let mut hunter = Hunter::new(7);
-    for _ in 0..1000 {
+    for _ in 0..rounds(1000) {
         let [m, n] = [hunter.degree_of(4, 20, 50), hunter.degree_of(4, 20, 50)];
         let points = hunter.numbers((m + 1) * (n + 1));
         let (u, v) = (hunter.parameter(), hunter.parameter());

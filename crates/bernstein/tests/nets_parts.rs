@@ -9,7 +9,7 @@ use casteljau_bernstein::{
 };
 use support::exact::{
     Hunter, Q, absolute_pair, absolutes, along, assert_within, blossom_of, choose, exact, exacts, factor,
-    pair,
+    pair, rounds,
 };
 use support::{assert_accurate, cases, count, flat, number, numbers, size};
 
@@ -23,7 +23,7 @@ fn elevated_line(line: &[Q], to: usize) -> Vec<Q> {
 #[test]
 fn elevation_of_nets() {
     let mut hunter = Hunter::new(8);
-    for round in 0..1000 {
+    for round in 0..rounds(1000) {
         let (degrees, to) = match round {
             0 | 1 => ([50 * round, 1, 0], [100, 2, 1]),
             2 => ([18, 17, 2], [20, 20, 2]),
@@ -65,7 +65,7 @@ fn whole_restricted_line(line: &[Q], interval: [f64; 2], absolute: bool) -> Vec<
 #[test]
 fn restriction_to_intervals() {
     let mut hunter = Hunter::new(9);
-    for round in 0..1000 {
+    for round in 0..rounds(1000) {
         let n = if round == 0 { 100 } else { hunter.degree(100) };
         let points = hunter.numbers(n + 1);
         let interval = [hunter.parameter(), hunter.parameter()];
@@ -92,7 +92,7 @@ fn restriction_to_intervals() {
 #[test]
 fn restriction_of_nets() {
     let mut hunter = Hunter::new(10);
-    for _ in 0..1000 {
+    for _ in 0..rounds(1000) {
         let degrees = hunter.box_degrees();
         let points = hunter.numbers(count(&degrees));
         let intervals = [0; 3].map(|_: usize| {
@@ -115,7 +115,7 @@ fn restriction_of_nets() {
 #[test]
 fn subdivision_of_nets_is_restriction() {
     let mut hunter = Hunter::new(11);
-    for _ in 0..1000 {
+    for _ in 0..rounds(1000) {
         let degrees = hunter.box_degrees();
         let points = hunter.numbers(count(&degrees));
         let (axis, t) = (hunter.below(3), hunter.parameter());

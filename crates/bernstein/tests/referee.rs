@@ -9,14 +9,14 @@ use num_traits::{Signed, ToPrimitive};
 use casteljau_bernstein::{basis, de_casteljau, derivatives, value};
 use support::exact::{
     Hunter, Q, absolute_basis, absolutes, assert_within, choose, differentiate, dot, exact, exacts, factor,
-    integer, scale,
+    integer, rounds, scale,
 };
 use support::exact::{basis as exact_basis, value as exact_value};
 
 #[test]
 fn values_on_the_interval() {
     let mut hunter = Hunter::new(1);
-    for _ in 0..2000 {
+    for _ in 0..rounds(2000) {
         let (n, t) = (hunter.degree(100), hunter.parameter());
         let points = hunter.numbers(n + 1);
         let (q, x) = (exacts(&points), exact(t));
@@ -35,7 +35,7 @@ fn values_on_the_interval() {
 #[test]
 fn derivatives_on_the_interval() {
     let mut hunter = Hunter::new(2);
-    for _ in 0..2000 {
+    for _ in 0..rounds(2000) {
         let (n, t) = (hunter.degree(100), hunter.parameter());
         let points = hunter.numbers(n + 1);
         let mut jet = [0.0; 4];
@@ -57,7 +57,7 @@ fn derivatives_on_the_interval() {
 #[test]
 fn exact_numbers_are_fractions() {
     let mut hunter = Hunter::new(3);
-    for _ in 0..1000 {
+    for _ in 0..rounds(1000) {
         let mut q: Vec<Q> = hunter.numbers(4).into_iter().map(exact).collect();
         let mut f: Vec<BigRational> = q.iter().map(|q| q.fraction().reduced()).collect();
         for _ in 0..8 {

@@ -9,7 +9,9 @@ use casteljau_bernstein::{
     value,
 };
 use num_traits::{One, Zero};
-use support::exact::{Hunter, Q, absolutes, assert_within, choose, dot, exact, exacts, factor, integer};
+use support::exact::{
+    Hunter, Q, absolutes, assert_within, choose, dot, exact, exacts, factor, integer, rounds,
+};
 use support::simplices::{absolute, basis, blossom, floor, indices, place};
 use support::{U, assert_accurate, cases, numbers, size};
 
@@ -70,9 +72,9 @@ fn exact_cases() {
 }
 
 /// Degrees up to 5; one case in a hundred up to 40.
-fn elevation<const V: usize>(seed: u64, rounds: usize) {
+fn elevation<const V: usize>(seed: u64, cases: usize) {
     let mut hunter = Hunter::new(seed);
-    for round in 0..rounds {
+    for round in 0..rounds(cases) {
         let n = if round == 0 { 38 } else { hunter.degree_of(5, 38, 100) };
         let by = if n > 5 { 1 + hunter.below(2) } else { hunter.below(5) };
         let points = hunter.numbers(simplex_count::<V>(n));
@@ -118,9 +120,9 @@ fn elevation_is_exact_to_its_bound() {
 
 /// Degrees up to `usual`; once `most` and one case in 200 up to half of it, where a point or two of each net are
 /// compared.
-fn restriction<const V: usize>(seed: u64, rounds: usize, usual: usize, most: usize) {
+fn restriction<const V: usize>(seed: u64, cases: usize, usual: usize, most: usize) {
     let mut hunter = Hunter::new(seed);
-    for round in 0..rounds {
+    for round in 0..rounds(cases) {
         let n = if round == 0 { most } else { hunter.degree_of(usual, most / 2, 200) };
         let points = hunter.numbers(simplex_count::<V>(n));
         let corners: [[f64; V]; V] = std::array::from_fn(|_| hunter.barycentric::<V>());
@@ -234,9 +236,9 @@ fn meeting<const V: usize>(parts: &[[[f64; V]; V]], nets: &[f64], n: usize) -> u
 }
 
 /// Degrees of the factors up to 5, and one in a hundred up to 20.
-fn products<const V: usize>(seed: u64, rounds: usize) {
+fn products<const V: usize>(seed: u64, cases: usize) {
     let mut hunter = Hunter::new(seed);
-    for round in 0..rounds {
+    for round in 0..rounds(cases) {
         let [n, m] = [0; 2].map(|_: usize| if round == 0 { 20 } else { hunter.degree_of(5, 20, 100) });
         let (p, f) = (hunter.numbers(simplex_count::<V>(n)), hunter.numbers(simplex_count::<V>(m)));
         let (of_p, of_f) = (exacts(&p), exacts(&f));
@@ -362,6 +364,33 @@ fn reduction_is_exact_where_it_can_be_and_the_nearest_elsewhere() {
     reduction::<4>(102, &[(2, 1), (3, 2), (5, 3), (7, 4)]);
 }
 
+/// Whatever is elevated comes back, points of very different size included.
+fn reduction_of_elevated<const V: usize>(seed: u64) {
+    let mut hunter = Hunter::new(seed);
+    for _ in 0..rounds(1000) {
+        let to = 1 + hunter.degree_of(4, 10, 100);
+        let from = to + 1 + hunter.below(3);
+        let low = hunter.numbers(simplex_count::<V>(to));
+        let high = elevated::<V>(&low, to, from);
+        let mut out = vec![f64::NAN; low.len()];
+        let bound = net::<V>(&high, from).reduce(to, &mut out, &mut vec![f64::NAN; 4 * high.len()]).unwrap();
+        // κ² is the product over the degrees; κ²·n·u times the length of P, at most √count of its largest point.
+        let condition =
+            (to + 1..=from).fold(1.0, |c, j| c / (1.0 - (to * (to + 1)) as f64 / (j * (j + 1)) as f64));
+        let length = high.iter().map(|p| p * p).sum::<f64>().sqrt();
+        let allowed = (4 * (from + 2)) as f64 * U * condition * length + f64::MIN_POSITIVE;
+        let off = low.iter().zip(&out).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
+        assert!(off <= allowed, "{from} to {to} over {V}: off {off:e}, allowed {allowed:e}");
+        assert!(bound <= allowed, "{from} to {to}: bound {bound:e}");
+    }
+}
+
+#[test]
+fn reduction_undoes_elevation() {
+    reduction_of_elevated::<3>(103);
+    reduction_of_elevated::<4>(104);
+}
+
 #[test]
 fn wrong_lengths_and_degrees_are_refused() {
     let points = [0.0; 6];
@@ -407,7 +436,7 @@ fn wrong_lengths_and_degrees_are_refused() {
 #[test]
 fn compositions() {
     let mut hunter = Hunter::new(110);
-    for _ in 0..1000 {
+    for _ in 0..rounds(1000) {
         let (n, d) = (hunter.below(5), hunter.below(4));
         let outer: Vec<f64> = (0..simplex_count::<3>(n)).map(|_| hunter.unit() - 0.5).collect();
         let mut argument =

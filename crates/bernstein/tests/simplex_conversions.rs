@@ -9,7 +9,7 @@ use casteljau_bernstein::{
 };
 use num_traits::{One, Zero};
 use support::exact::{
-    Hunter, Q, absolutes, assert_within, choose, dot, exact, exacts, factor, factorial, integer,
+    Hunter, Q, absolutes, assert_within, choose, dot, exact, exacts, factor, factorial, integer, rounds,
 };
 use support::simplices::{basis, indices, multinomial};
 use support::{U, assert_accurate};
@@ -116,9 +116,9 @@ fn power_basis_both_ways() {
     power::<4>(202, 40);
 }
 
-fn moments<const V: usize>(seed: u64, rounds: usize) {
+fn moments<const V: usize>(seed: u64, cases: usize) {
     let mut hunter = Hunter::new(seed);
-    for round in 0..rounds {
+    for round in 0..rounds(cases) {
         let n = if round == 0 { 40 } else { hunter.degree_of(6, 40, if V == 4 { 200 } else { 50 }) };
         let points = hunter.numbers(simplex_count::<V>(n));
         let exponents: [usize; V] = std::array::from_fn(|_| if round == 0 { 0 } else { hunter.below(4) });
@@ -149,9 +149,9 @@ fn moments_are_exact_to_their_bound() {
     moments::<4>(212, 1000);
 }
 
-fn bounds<const V: usize>(seed: u64, rounds: usize, most: usize) {
+fn bounds<const V: usize>(seed: u64, cases: usize, most: usize) {
     let mut hunter = Hunter::new(seed);
-    for _ in 0..rounds {
+    for _ in 0..rounds(cases) {
         let n = hunter.below(most + 1);
         let points: Vec<f64> = (0..simplex_count::<V>(n)).map(|_| hunter.unit() - 0.5).collect();
         let net = net::<V>(&points, n);
@@ -219,7 +219,7 @@ fn extremes_at_known_places() {
 #[test]
 fn faces_are_nets_of_their_own() {
     let mut hunter = Hunter::new(230);
-    for _ in 0..1000 {
+    for _ in 0..rounds(1000) {
         let n = hunter.below(9);
         let points = hunter.numbers(simplex_count::<4>(n));
         let solid = TetrahedronNet::new(&points, n).unwrap();
@@ -295,7 +295,7 @@ fn faces_look_outward() {
 fn affine_invariance() {
     use casteljau_bernstein::glam::{DMat3, DVec3};
     let mut hunter = Hunter::new(240);
-    for _ in 0..1000 {
+    for _ in 0..rounds(1000) {
         let n = hunter.below(12);
         let points: Vec<DVec3> = (0..simplex_count::<3>(n))
             .map(|_| DVec3::new(hunter.unit(), hunter.unit() * 1e3, hunter.unit() - 0.5))

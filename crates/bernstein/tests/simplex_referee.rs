@@ -11,7 +11,7 @@ use casteljau_bernstein::{
 use support::U;
 use support::exact::{
     Hunter, Q, absolute_pair, absolutes, assert_within, differentiate, dot, exact, exacts, factor, integer,
-    pair,
+    pair, rounds,
 };
 use support::simplices::{absolute, basis, blossom, differentiated, floor, indices, place};
 
@@ -25,7 +25,7 @@ fn places_of_the_referee_count_up() {
 
 fn values<const V: usize>(seed: u64, cases: usize, most: usize) {
     let mut hunter = Hunter::new(seed);
-    for case in 0..cases {
+    for case in 0..rounds(cases) {
         // One in a hundred up to the limit.
         let n = if case == 0 { most } else { hunter.degree_of(9, most, 100) };
         let (points, lambda) = (hunter.numbers(simplex_count::<V>(n)), hunter.barycentric::<V>());
@@ -67,7 +67,7 @@ fn values_over_intervals() {
 /// Degrees up to `most`, one in `rarely` of them; of a high one derivatives to order 2.
 fn partials<const V: usize>(seed: u64, cases: usize, most: usize, rarely: usize) {
     let mut hunter = Hunter::new(seed);
-    for case in 0..cases {
+    for case in 0..rounds(cases) {
         let n = if case == 0 { most } else { hunter.degree_of(5, most, rarely) };
         let order = if n > 5 { 2 } else { hunter.below(5) };
         let (points, lambda) = (hunter.numbers(simplex_count::<V>(n)), hunter.barycentric::<V>());
@@ -112,7 +112,7 @@ fn partials_over_tetrahedra() {
 /// Blossoms, and directional derivatives as blossoms with vectors among the arguments.
 fn blossoms<const V: usize>(seed: u64, cases: usize) {
     let mut hunter = Hunter::new(seed);
-    for _ in 0..cases {
+    for _ in 0..rounds(cases) {
         let n = hunter.degree_of(6, 40, if V == 3 { 100 } else { 400 });
         let points = hunter.numbers(simplex_count::<V>(n));
         let q = exacts(&points);
@@ -158,7 +158,7 @@ fn blossoms_over_tetrahedra() {
 #[test]
 fn the_last_barycentric_keeps_its_digits() {
     let mut hunter = Hunter::new(41);
-    for _ in 0..5000 {
+    for _ in 0..rounds(5000) {
         let free = [hunter.parameter(), hunter.parameter() - 0.5, hunter.parameter()];
         for free in [&free[..1], &free[..2], &free] {
             let truth = Q::one() - free.iter().map(|&x| exact(x)).sum::<Q>();
@@ -172,7 +172,7 @@ fn the_last_barycentric_keeps_its_digits() {
 #[test]
 fn wedges() {
     let mut hunter = Hunter::new(51);
-    for case in 0..1000 {
+    for case in 0..rounds(1000) {
         let (n, o) = match case {
             0 => (20, 20),
             _ => (hunter.degree_of(4, 20, 50), hunter.degree_of(4, 20, 50)),

@@ -9,35 +9,13 @@ use casteljau_geom::{Partials, UNIT_ROUNDOFF, multi_indices, partial_count, part
 use casteljau_shape::{
     ParametricCurve, ParametricSurface, RationalCurve, RationalPatch, RationalTriangle, ShapeError,
 };
-use num_rational::BigRational;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::{One, Zero};
 use proptest::collection::vec;
 use proptest::prelude::*;
+use support::exact::{Q, choose, exact, factorial, power};
 use support::homogeneous_point;
 
-type Q = BigRational;
-
 const ORDER: usize = 3;
-
-fn exact(x: f64) -> Q {
-    Q::from_float(x).unwrap()
-}
-
-fn whole(n: usize) -> Q {
-    Q::from_integer(n.into())
-}
-
-fn factorial(n: usize) -> Q {
-    (1..=n).map(whole).product()
-}
-
-fn choose(n: usize, k: usize) -> Q {
-    if k > n { Q::zero() } else { factorial(n) / factorial(k) / factorial(n - k) }
-}
-
-fn power(x: &Q, k: usize) -> Q {
-    num_traits::pow(x.clone(), k)
-}
 
 /// The k-th derivative of a Bernstein polynomial, and the sum of the absolute values of its parts:
 /// `n!/(n−k)! Σⱼ (−1)ᵏ⁻ʲ C(k,j) Bᵢ₋ⱼⁿ⁻ᵏ`.
@@ -90,7 +68,7 @@ fn judge<const N: usize>(
     basis: impl Fn(usize, [usize; N]) -> [Q; 2],
     got: Result<Partials<N>, ShapeError>,
 ) -> Result<(), TestCaseError> {
-    let number = |q: &Q| q.to_f64().unwrap();
+    let number = |q: &Q| q.to_f64();
     let mut homogeneous = Vec::new();
     for orders in multi_indices::<N>(ORDER) {
         let mut sums: [[Q; 2]; 4] = std::array::from_fn(|_| [Q::zero(), Q::zero()]);
@@ -108,7 +86,11 @@ fn judge<const N: usize>(
     let got = match got {
         Ok(got) => got,
         Err(error) => {
-            prop_assert!(number(&w.abs()) <= 2.0 * bound, "{error} though w = {w}, within {bound:e}");
+            prop_assert!(
+                number(&w.abs()) <= 2.0 * bound,
+                "{error} though w = {:e}, within {bound:e}",
+                number(w)
+            );
             return Ok(());
         }
     };
@@ -148,12 +130,6 @@ fn judge<const N: usize>(
     Ok(())
 }
 
-/// So many cases; forty times as many where `CASTELJAU_LONG` is set.
-fn cases(usual: u32) -> ProptestConfig {
-    let factor = if std::env::var_os("CASTELJAU_LONG").is_some() { 40 } else { 1 };
-    ProptestConfig::with_cases(usual * factor)
-}
-
 fn parameter() -> impl Strategy<Value = f64> {
     prop_oneof![
         4 => 0.0..=1.0,
@@ -165,7 +141,7 @@ fn parameter() -> impl Strategy<Value = f64> {
 }
 
 proptest! {
-    #![proptest_config(cases(50))]
+    #![proptest_config(ProptestConfig::with_cases(2000))]
 
     #[test]
     fn curves(net in vec(homogeneous_point(), 1..12), t in parameter()) {
@@ -178,7 +154,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(cases(10))]
+    #![proptest_config(ProptestConfig::with_cases(1000))]
 
     #[test]
     fn patches(m in 0..4usize, n in 0..4usize, net in vec(homogeneous_point(), 16), u in parameter(), v in parameter()) {

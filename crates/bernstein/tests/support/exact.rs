@@ -168,13 +168,22 @@ pub fn factor(degree: usize, order: usize) -> usize {
     4 * (degree + 2 * order + 2)
 }
 
+/// So many random cases; as many as `PROPTEST_CASES` says where that is more.
+pub fn rounds(usual: usize) -> usize {
+    let asked = std::env::var("PROPTEST_CASES").ok().and_then(|cases| cases.parse().ok());
+    asked.unwrap_or(0).max(usual)
+}
+
 /// A repeatable source of numbers that hunt for trouble: half of them near 0, ±1 or a power of two, the rest
 /// with exponents spread; repeats are frequent.
 pub struct Hunter(u64);
 
 impl Hunter {
+    /// Other numbers for another seed, and for another `PROPTEST_RNG_SEED`.
     pub fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
+        let run: u64 =
+            std::env::var("PROPTEST_RNG_SEED").ok().and_then(|seed| seed.parse().ok()).unwrap_or(0);
+        Self((seed ^ run << 32).wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
     }
 
     pub fn bits(&mut self) -> u64 {

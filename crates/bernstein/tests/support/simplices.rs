@@ -6,7 +6,7 @@ use num_traits::Zero;
 
 use casteljau_bernstein::last_barycentric;
 
-use super::exact::{Hunter, Q, exact, integer, powers};
+use super::exact::{Hunter, Q, basis_of, dot, exact, integer, powers};
 
 /// All multi-indices of a degree with so many entries, descending lexicographically.
 pub fn indices(vertices: usize, degree: usize) -> Vec<Vec<usize>> {
@@ -52,6 +52,13 @@ pub fn basis(degree: usize, lambda: &[Q]) -> Vec<Q> {
         index.iter().zip(&powers).fold(multinomial(index), |product, (&b, p)| product * &p[b])
     };
     indices(lambda.len(), degree).iter().map(product).collect()
+}
+
+/// Value of a wedge of degrees [n, o] at λ and, in the height, (1 − w, w), which need not add up to 1.
+pub fn wedge_value(points: &[Q], [n, o]: [usize; 2], lambda: &[Q], (s, t): (&Q, &Q)) -> Q {
+    let in_height = basis_of(o, s, t);
+    let net: Vec<Q> = points.chunks(o + 1).map(|row| dot(row, &in_height)).collect();
+    dot(&net, &basis(n, lambda))
 }
 
 pub fn absolute(lambda: &[Q]) -> Vec<Q> {
