@@ -10,7 +10,7 @@ use casteljau_bernstein::{
 use proptest::collection::vec;
 use proptest::prelude::*;
 use serde_json::Value;
-use support::exact::{Q, choose, differentiate, exact, exacts, integer, power, value as exact_value};
+use support::exact::{Q, choose, differentiate, exact, exacts, integer, power, rounds, value as exact_value};
 use support::{U, assert_accurate, cases, component, hunting, number, parameter, size};
 
 /// `n!/(n−k)! Σᵢ |Bᵢⁿ⁻ᵏ(t)| Σⱼ C(k,j) |Pᵢ₊ⱼ|`: the sum of the absolute contributions to a derivative.
@@ -210,7 +210,7 @@ fn golden_normals() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1000))]
+    #![proptest_config(ProptestConfig::with_cases(rounds(1000) as u32))]
 
     #[test]
     fn curves_against_exact_arithmetic(

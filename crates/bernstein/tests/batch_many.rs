@@ -7,7 +7,7 @@ use casteljau_bernstein::glam::DVec3;
 use casteljau_bernstein::{BernsteinError, elevate, elevate_many, subdivide, subdivide_many, to_power_many};
 use proptest::collection::vec;
 use proptest::prelude::*;
-use support::exact::{Q, choose, exact};
+use support::exact::{Q, choose, exact, rounds};
 use support::{assert_accurate, hunting, parameter};
 
 /// Column `at` of rows that are `row` numbers wide.
@@ -20,7 +20,7 @@ fn absolute(numbers: &[f64]) -> Vec<f64> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1000))]
+    #![proptest_config(ProptestConfig::with_cases(rounds(1000) as u32))]
 
     #[test]
     fn split_as_one_by_one(degree in 0..8usize, row in 1..14usize, p in vec(hunting(), 8 * 14 * 3), t in parameter()) {

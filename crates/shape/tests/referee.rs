@@ -14,7 +14,7 @@ use casteljau_shape::{
 use num_traits::{One, Zero};
 use proptest::collection::vec;
 use proptest::prelude::*;
-use support::exact::{Q, assert_within, choose, exact, factor, factorial, power};
+use support::exact::{Q, assert_within, choose, exact, factor, factorial, power, rounds};
 use support::homogeneous_point;
 
 const ORDER: usize = 3;
@@ -191,7 +191,7 @@ fn polynomial(net: &[DVec4]) -> (Vec<DVec4>, Vec<DVec3>) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2000))]
+    #![proptest_config(ProptestConfig::with_cases(rounds(2000) as u32))]
 
     #[test]
     fn curves(net in curve_net(), t in parameter()) {
@@ -207,7 +207,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1000))]
+    #![proptest_config(ProptestConfig::with_cases(rounds(1000) as u32))]
 
     #[test]
     fn patches(([m, n], net) in patch_net(), u in parameter(), v in parameter()) {
