@@ -90,8 +90,7 @@ fn judge_polynomial<const N: usize>(
     for orders in multi_indices::<N>(ORDER) {
         let sums = derivatives(net, &basis, orders);
         let factor = factor(degree, orders.iter().sum());
-        for axis in 0..3 {
-            let [truth, scale] = &sums[axis];
+        for (axis, [truth, scale]) in sums.iter().enumerate().take(3) {
             let what = format!("{orders:?} of degree {degree}, axis {axis}");
             assert_within(got.get(orders).unwrap()[axis], truth, scale, factor, &what);
         }

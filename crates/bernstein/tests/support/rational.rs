@@ -144,7 +144,7 @@ impl MulAssign<&Q> for Q {
 
 impl Q {
     fn divide(&mut self, other: &Q) {
-        let twos = other.m.trailing_zeros().expect("division by zero");
+        let twos = other.m.trailing_zeros().unwrap();
         let odd = &other.m >> twos;
         self.m *= &other.d;
         self.e -= other.e + i64::try_from(twos).unwrap();
