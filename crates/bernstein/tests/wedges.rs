@@ -100,6 +100,51 @@ fn elevation_and_reduction() {
     }
 }
 
+/// A case where gradients of the last rounds are rounding errors only, and a step along them must not run away.
+#[test]
+fn reduction_ends_where_it_is_exact() {
+    let points = [
+        0.999999999999997,
+        1.0000000000000036,
+        1.0000000000000036,
+        -1.6877628551918797,
+        -123427.20377646628,
+        1.9811390152293344,
+        -1.5128316183692667,
+        -0.6809500109554838,
+        -0.6809500109554838,
+        -0.6809500109554838,
+        -1.5912360665335652,
+        -1.5912360665335652,
+        1.5727034016608719,
+        -1.5672351199010004,
+        0.31331221079471616,
+        -5.791323142155062e-5,
+        -0.0,
+        1.8172278732963898,
+        -7.275957614183389e-12,
+        0.2624685675074905,
+        -511.9999999999985,
+        -511.9999999999985,
+        7.42964010566659e-10,
+        0.0,
+        -1.3057606722855581,
+        1.8081282866408181,
+        1.454375900092442,
+        1.0159534207684868,
+        -0.02597513065171997,
+        -0.02597513065171997,
+    ];
+    let mut high = [f64::NAN; 120];
+    WedgeNet::new(&points, [2, 4]).unwrap().elevate([4, 7], &mut high).unwrap();
+    let (mut low, mut scratch) = ([f64::NAN; 30], [f64::NAN; 218]);
+    let bound = WedgeNet::new(&high, [4, 7]).unwrap().reduce([2, 4], &mut low, &mut scratch).unwrap();
+    assert!(bound < 1e-9, "{bound:e}");
+    for (a, b) in low.iter().zip(points) {
+        assert!((a - b).abs() < 1e-7, "{a:e} {b:e}"); // the size, 10⁵, times 30u and the conditions, below 10²
+    }
+}
+
 #[test]
 fn parts_are_the_whole() {
     let mut hunter = Hunter::new(310);
