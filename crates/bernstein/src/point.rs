@@ -26,12 +26,14 @@ pub trait Point:
     fn abs(self) -> Self;
     /// Euclidean length, `√Σxᵢ²`.
     fn norm(self) -> f64;
+    /// Inner product, `Σ xᵢ yᵢ`.
+    fn dot(self, other: Self) -> f64;
     /// Whether every component is finite.
     fn is_finite(self) -> bool;
 }
 
 macro_rules! point {
-    ($($type:ty: $zero:expr, $norm:expr;)*) => {$(
+    ($($type:ty: $zero:expr, $norm:expr, $dot:expr;)*) => {$(
         impl Point for $type {
             const ZERO: Self = $zero;
             const NAN: Self = <$type>::NAN;
@@ -44,6 +46,10 @@ macro_rules! point {
                 $norm(self)
             }
 
+            fn dot(self, other: Self) -> f64 {
+                $dot(self, other)
+            }
+
             fn is_finite(self) -> bool {
                 <$type>::is_finite(self)
             }
@@ -52,8 +58,8 @@ macro_rules! point {
 }
 
 point! {
-    f64: 0.0, f64::abs;
-    DVec2: DVec2::ZERO, DVec2::length;
-    DVec3: DVec3::ZERO, DVec3::length;
-    DVec4: DVec4::ZERO, DVec4::length;
+    f64: 0.0, f64::abs, f64::mul;
+    DVec2: DVec2::ZERO, DVec2::length, DVec2::dot;
+    DVec3: DVec3::ZERO, DVec3::length, DVec3::dot;
+    DVec4: DVec4::ZERO, DVec4::length, DVec4::dot;
 }

@@ -4,13 +4,10 @@
 mod support;
 
 use casteljau_bernstein::glam::DVec3;
-use casteljau_bernstein::{
-    BernsteinError, binomial, elevate, elevate_many, subdivide, subdivide_many, to_power_many,
-};
-use num_rational::BigRational;
-use num_traits::{FromPrimitive, ToPrimitive, Zero};
+use casteljau_bernstein::{BernsteinError, elevate, elevate_many, subdivide, subdivide_many, to_power_many};
 use proptest::collection::vec;
 use proptest::prelude::*;
+use support::exact::{Q, choose, exact, rounds};
 use support::{assert_accurate, hunting, parameter};
 
 /// Column `at` of rows that are `row` numbers wide.
@@ -23,6 +20,8 @@ fn absolute(numbers: &[f64]) -> Vec<f64> {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig::with_cases(rounds(1000) as u32))]
+
     #[test]
     fn split_as_one_by_one(degree in 0..8usize, row in 1..14usize, p in vec(hunting(), 8 * 14 * 3), t in parameter()) {
         let size = (degree + 1) * row;
@@ -94,13 +93,10 @@ proptest! {
         to_power_many(curves, n, &mut out).unwrap();
         for (curve, out) in curves.chunks(n + 1).zip(out.chunks(n + 1)) {
             for (k, &got) in out.iter().enumerate() {
-                let (mut exact, mut scale) = (BigRational::zero(), 0.0);
-                for (i, &x) in curve.iter().enumerate().take(k + 1) {
-                    let factor = binomial(n, k) * binomial(k, i) * if (k - i) % 2 == 0 { 1.0 } else { -1.0 };
-                    exact += BigRational::from_f64(factor).unwrap() * BigRational::from_f64(x).unwrap();
-                    scale += factor.abs() * x.abs();
-                }
-                assert_accurate(got, exact.to_f64().unwrap(), n, 0, scale, &format!("{n} {k}"));
+                let term = |i: usize| choose(n, k) * choose(k, i) * exact(curve[i]);
+                let truth: Q = (0..=k).map(|i| if (k - i) % 2 == 0 { term(i) } else { -term(i) }).sum();
+                let scale: Q = (0..=k).map(|i| term(i).abs()).sum();
+                assert_accurate(got, truth.to_f64(), n, 0, scale.to_f64(), &format!("{n} {k}"));
             }
         }
     }

@@ -4,17 +4,16 @@
 mod support;
 
 use casteljau_bernstein::{
-    BernsteinError, BernsteinSpace, BoxNet, SimplexSpace, TensorNet, TriangleNet, WedgeNet, compose,
-    compose_homogeneous, compose_simplex, compose_wedge, last_coordinate, value,
+    BernsteinError, BernsteinSpace, SimplexSpace, compose, compose_homogeneous, compose_simplex,
+    compose_wedge, last_coordinate, value,
 };
 
-use support::exact::{Hunter, Q, absolutes, assert_within, choose, exact, exacts, integer};
-use support::{assert_accurate, cases, component, flat, size};
-
-/// A product in Bernstein form on the interval.
-fn product(a: &[Q], b: &[Q]) -> Vec<Q> {
-    support::exact::product(a, b)
-}
+use support::exact::{
+    Hunter, Q, absolutes, assert_within, basis, choose, dot, exact, exacts, integer, product, rounds,
+    tensor_sum, value as exact_value,
+};
+use support::simplices::{basis as simplex_basis, indices, multinomial, wedge_value};
+use support::{assert_accurate, cases, component, count, flat, size};
 
 /// `C(n,i) sⁿ⁻ⁱ tⁱ` for polynomials s and t.
 fn term(n: usize, i: usize, s: &[Q], t: &[Q]) -> Vec<Q> {
@@ -75,8 +74,13 @@ fn golden_compositions() {
 #[test]
 fn curves_with_polynomial_arguments() {
     let mut hunter = Hunter::new(31);
-    for round in 0..500 {
-        let (n, d) = if round == 0 { (12, 3) } else { (hunter.below(7), hunter.below(4)) };
+    for round in 0..rounds(1000) {
+        // To degree 100, one in a hundred.
+        let (n, d) = match round {
+            0 => (20, 5),
+            _ if round % 100 == 0 => (8 + hunter.below(13), hunter.below(6)),
+            _ => (hunter.below(7), hunter.below(4)),
+        };
         let outer = hunter.numbers(n + 1);
         let wide = hunter.below(3) == 0;
         let t: Vec<f64> =
@@ -95,7 +99,7 @@ fn curves_with_polynomial_arguments() {
 #[test]
 fn solids_along_curves() {
     let mut hunter = Hunter::new(32);
-    for _ in 0..40 {
+    for _ in 0..rounds(1000) {
         let degrees = [0; 3].map(|_: usize| hunter.below(3));
         let d = hunter.below(4);
         let outer = hunter.numbers(degrees.iter().map(|d| d + 1).product());
@@ -133,83 +137,84 @@ fn degree_two_hundred() {
     assert!(matches!(refused, Err(BernsteinError::Degree { degree: 502, .. })));
 }
 
-/// Patches and solids on the square and the cube, by values at parameters.
+/// Values of a composition, exactly that of the net which was made, against those of the shape at its arguments.
+///
+/// Errors of the net's points are at most `4(total·(d+2) + 2)·u` of their scales, and where arguments and
+/// parameters are in [0, 1], these scales are the points of the composition of |P|.
+fn check_values(got: &Q, truth: &Q, scale: &Q, total: usize, d: usize, what: &str) {
+    let off = (got - truth).abs();
+    let allowed = scale * exact(support::U) * integer(4 * (total * (d + 2) + 2));
+    assert!(off <= allowed, "{what}: off {:e}, allowed {:e}", off.to_f64(), allowed.to_f64());
+}
+
+/// Exact value of a net over [0, 1]ᴰ.
+fn tensor_value(points: &[Q], degrees: &[usize], at: &[Q]) -> Q {
+    let weights: Vec<_> = degrees.iter().zip(at).map(|(&n, t)| basis(n, t)).collect();
+    tensor_sum(points, &weights)
+}
+
+/// Patches with arguments on the square and the cube.
 #[test]
 fn arguments_in_more_variables() {
     let mut hunter = Hunter::new(33);
-    for _ in 0..60 {
-        let degrees = [hunter.below(4), hunter.below(4)];
+    for _ in 0..rounds(1000) {
+        let degrees = [hunter.degree_of(3, 8, 100), hunter.below(4)];
         let total = degrees[0] + degrees[1];
-        let outer: Vec<f64> =
-            (0..(degrees[0] + 1) * (degrees[1] + 1)).map(|_| hunter.unit() * 2.0 - 1.0).collect();
-        let net = TensorNet::new(&outer, degrees).unwrap();
-        let at = [hunter.unit(), hunter.unit(), hunter.unit()];
+        let outer = hunter.numbers(count(&degrees));
+        let (q, sizes) = (exacts(&outer), absolutes(&exacts(&outer)));
+        let at = [hunter.unit(), hunter.unit(), hunter.unit()].map(exact);
 
         let quad = [hunter.below(3), hunter.below(3)];
-        let inner = [0; 2]
-            .map(|_: usize| (0..(quad[0] + 1) * (quad[1] + 1)).map(|_| hunter.unit()).collect::<Vec<_>>());
+        let inner = [0; 2].map(|_: usize| (0..count(&quad)).map(|_| hunter.unit()).collect::<Vec<_>>());
         let mut out = vec![0.0; quad.power(total).size().unwrap()];
         compose(&outer, degrees, [&inner[0], &inner[1]], quad, &mut out).unwrap();
-        let [x, y] = [0, 1].map(|i| TensorNet::new(&inner[i], quad).unwrap().value(at[0], at[1]));
-        let got = TensorNet::new(&out, quad.power(total)).unwrap().value(at[0], at[1]);
-        // Arguments are rounded, which moves the value by at most u·|p′| ≤ 2·degree·u each.
-        assert_accurate(got, net.value(x, y), 8 * (total + 1) * 4, 0, 1.0, "patch on the square");
+        let place = inner.each_ref().map(|t| tensor_value(&exacts(t), &quad, &at[..2]));
+        let got = tensor_value(&exacts(&out), &quad.power(total), &at[..2]);
+        let [truth, scale] = [&q, &sizes].map(|points| tensor_value(points, &degrees, &place));
+        check_values(&got, &truth, &scale, total, quad[0] + quad[1], "patch on the square");
 
         let cube = [1, hunter.below(2), 1];
-        let inner =
-            [0; 2].map(|_: usize| (0..cube.size().unwrap()).map(|_| hunter.unit()).collect::<Vec<_>>());
+        let inner = [0; 2].map(|_: usize| (0..count(&cube)).map(|_| hunter.unit()).collect::<Vec<_>>());
         let mut out = vec![0.0; cube.power(total).size().unwrap()];
         compose(&outer, degrees, [&inner[0], &inner[1]], cube, &mut out).unwrap();
-        let [x, y] = [0, 1].map(|i| BoxNet::new(&inner[i], cube).unwrap().value(at[0], at[1], at[2]));
-        let got = BoxNet::new(&out, cube.power(total)).unwrap().value(at[0], at[1], at[2]);
-        assert_accurate(got, net.value(x, y), 8 * (total + 1) * 4, 0, 1.0, "patch on the cube");
+        let place = inner.each_ref().map(|t| tensor_value(&exacts(t), &cube, &at));
+        let got = tensor_value(&exacts(&out), &cube.power(total), &at);
+        let [truth, scale] = [&q, &sizes].map(|points| tensor_value(points, &degrees, &place));
+        check_values(&got, &truth, &scale, total, cube.iter().sum(), "patch on the cube");
     }
 }
 
 #[test]
 fn simplices_along_curves() {
     let mut hunter = Hunter::new(34);
-    for _ in 0..60 {
-        let (n, d) = (hunter.below(5), hunter.below(3));
+    for _ in 0..rounds(1000) {
         for vertices in [2, 3, 4] {
+            let (n, d) = (hunter.degree_of(4, 12, 100), hunter.below(3));
             let coordinates: Vec<Vec<f64>> =
                 (0..vertices).map(|_| (0..=d).map(|_| hunter.unit() * 1.2 - 0.2).collect()).collect();
-            // Multi-indices in descending lexicographic order.
-            let mut indices = vec![vec![]];
-            for place in 0..vertices {
-                indices = indices
-                    .into_iter()
-                    .flat_map(|head: Vec<usize>| {
-                        let left = n - head.iter().sum::<usize>();
-                        let choices = if place + 1 == vertices { left..=left } else { 0..=left };
-                        choices.rev().map(move |i| [head.clone(), vec![i]].concat()).collect::<Vec<_>>()
-                    })
-                    .collect();
-            }
-            let outer = hunter.numbers(indices.len());
+            let all = indices(vertices, n);
+            let outer = hunter.numbers(all.len());
             let mut out = vec![0.0; n * d + 1];
             let lists: Vec<&[f64]> = coordinates.iter().map(Vec::as_slice).collect();
             compose_simplex(&outer, n, &lists, [d], &mut out).unwrap();
-            let (mut truth, mut scale) = (vec![integer(0); out.len()], vec![integer(0); out.len()]);
-            for (index, p) in indices.iter().zip(&outer) {
-                let (mut one, mut left) = (vec![exact(*p)], n);
-                for (coordinate, &i) in coordinates.iter().zip(index) {
-                    one = one.iter().map(|x| x * choose(left, i)).collect();
-                    one = (0..i).fold(one, |one, _| product(&one, &exacts(coordinate)));
-                    left -= i;
+            // `Σ n!/β! λ^β P_β` for polynomials λ.
+            let composed = |size: fn(&[Q]) -> Vec<Q>| -> Vec<Q> {
+                let powers = |list: &Vec<f64>| -> Vec<Vec<Q>> {
+                    let list = size(&exacts(list));
+                    std::iter::successors(Some(vec![integer(1)]), |p| Some(product(p, &list)))
+                        .take(n + 1)
+                        .collect()
+                };
+                let powers: Vec<_> = coordinates.iter().map(powers).collect();
+                let mut sum = vec![integer(0); n * d + 1];
+                for (index, p) in all.iter().zip(size(&exacts(&outer))) {
+                    let one = vec![multinomial(index) * p];
+                    let one = index.iter().zip(&powers).fold(one, |one, (&b, p)| product(&one, &p[b]));
+                    sum.iter_mut().zip(one).for_each(|(sum, x)| *sum += x);
                 }
-                let mut positive = vec![exact(p.abs())];
-                left = n;
-                for (coordinate, &i) in coordinates.iter().zip(index) {
-                    positive = positive.iter().map(|x| x * choose(left, i)).collect();
-                    positive = (0..i).fold(positive, |one, _| product(&one, &absolutes(&exacts(coordinate))));
-                    left -= i;
-                }
-                for k in 0..out.len() {
-                    truth[k] += &one[k];
-                    scale[k] += &positive[k];
-                }
-            }
+                sum
+            };
+            let (truth, scale) = (composed(<[Q]>::to_vec), composed(absolutes));
             for k in 0..out.len() {
                 assert_within(out[k], &truth[k], &scale[k], 4 * (n * (d + 2) + 2), "simplex along a curve");
             }
@@ -223,41 +228,45 @@ fn simplices_along_curves() {
     assert_eq!(refused, Err(BernsteinError::BufferLength { buffer: "outer", needed: 2, given: 3 }));
 }
 
-/// Wedges along curves and over triangles, by values at parameters.
+/// Wedges along curves and over triangles.
 #[test]
 fn wedges() {
     let mut hunter = Hunter::new(35);
-    for _ in 0..100 {
+    for _ in 0..rounds(1000) {
         let [n, o] = [hunter.below(4), hunter.below(4)];
-        let count = (n + 1) * (n + 2) / 2 * (o + 1);
-        let outer: Vec<f64> = (0..count).map(|_| hunter.unit() * 2.0 - 1.0).collect();
-        let net = WedgeNet::new(&outer, [n, o]).unwrap();
+        let outer = hunter.numbers((n + 1) * (n + 2) / 2 * (o + 1));
+        let (q, sizes) = (exacts(&outer), absolutes(&exacts(&outer)));
+        let shape =
+            |points: &[Q], at: &[Q]| wedge_value(points, [n, o], &at[..3], (&(integer(1) - &at[3]), &at[3]));
         // Coordinates that stay inside the wedge: the first two at most a half.
-        let d = hunter.below(4);
-        let mut argument =
-            |size: usize, most: f64| (0..size).map(|_| hunter.unit() * most).collect::<Vec<_>>();
-        let (first, second, height) = (argument(d + 1, 0.5), argument(d + 1, 0.5), argument(d + 1, 1.0));
-        let mut third = vec![0.0; d + 1];
-        last_coordinate(&[&first, &second], &mut third).unwrap();
-        let mut out = vec![0.0; (n + o) * d + 1];
-        compose_wedge(&outer, [n, o], [&first, &second, &third], &height, [d], &mut out).unwrap();
-        for s in [0.0, 0.3, 1.0] {
-            let [x, y, z, w] = [&first, &second, &third, &height].map(|a| value(a, s));
-            // Arguments are rounded, which moves the value by at most u·|p′| ≤ 2·degree·u each.
-            let allowed = 4 * (n + o) * (d + 2) + 32 * (n + o + 1);
-            assert_accurate(value(&out, s), net.value([x, y, z], w), allowed, 0, 1.0, "wedge along a curve");
-        }
+        let mut arguments = |size: usize| -> [Vec<f64>; 4] {
+            let mut argument = |most: f64| (0..size).map(|_| hunter.unit() * most).collect::<Vec<_>>();
+            let (first, second, height) = (argument(0.5), argument(0.5), argument(1.0));
+            let mut third = vec![0.0; size];
+            last_coordinate(&[&first, &second], &mut third).unwrap();
+            [first, second, third, height]
+        };
+        let along = arguments(1 + n);
+        let over = arguments(3);
+
+        let [first, second, third, height] = &along;
+        let mut out = vec![0.0; (n + o) * n + 1];
+        compose_wedge(&outer, [n, o], [first, second, third], height, [n], &mut out).unwrap();
+        let s = exact(hunter.unit());
+        let place = along.each_ref().map(|a| exact_value(&exacts(a), &s));
+        let [truth, scale] = [&q, &sizes].map(|points| shape(points, &place));
+        check_values(&exact_value(&exacts(&out), &s), &truth, &scale, n + o, n, "wedge along a curve");
+
+        let [first, second, third, height] = &over;
         let space = SimplexSpace::<3>(1);
-        let (first, second, height) = (argument(3, 0.5), argument(3, 0.5), argument(3, 1.0));
-        let mut third = vec![0.0; 3];
-        last_coordinate(&[&first, &second], &mut third).unwrap();
         let mut out = vec![0.0; space.power(n + o).size().unwrap()];
-        compose_wedge(&outer, [n, o], [&first, &second, &third], &height, space, &mut out).unwrap();
-        let at = [0.2, 0.5, 0.3];
-        let [x, y, z, w] =
-            [&first, &second, &third, &height].map(|a| TriangleNet::new(a, 1).unwrap().value(at));
-        let got = TriangleNet::new(&out, n + o).unwrap().value(at);
-        assert_accurate(got, net.value([x, y, z], w), 64 * (n + o + 1), 0, 1.0, "wedge over a triangle");
+        compose_wedge(&outer, [n, o], [first, second, third], height, space, &mut out).unwrap();
+        let at = [hunter.unit() / 2.0, hunter.unit() / 2.0].map(exact);
+        let at = [at[0].clone(), at[1].clone(), integer(1) - &at[0] - &at[1]];
+        let over_triangle = |points: &[f64], degree| dot(&exacts(points), &simplex_basis(degree, &at));
+        let place = over.each_ref().map(|a| over_triangle(a, 1));
+        let [truth, scale] = [&q, &sizes].map(|points| shape(points, &place));
+        check_values(&over_triangle(&out, n + o), &truth, &scale, n + o, 1, "wedge over a triangle");
     }
     let line: &[f64] = &[0.0, 1.0];
     let refused = compose_wedge(&[0.0; 5], [1, 1], [line; 3], line, [1], &mut [0.0; 3]);

@@ -9,8 +9,10 @@ use casteljau_bernstein::{
     value,
 };
 use num_traits::{One, Zero};
-use support::exact::{Hunter, Q, absolutes, assert_within, choose, dot, exact, exacts, factor, integer};
-use support::simplices::{absolute, basis, blossom, floor, indices};
+use support::exact::{
+    Hunter, Q, absolutes, assert_within, choose, dot, exact, exacts, factor, integer, rounds,
+};
+use support::simplices::{absolute, basis, blossom, floor, indices, place};
 use support::{U, assert_accurate, cases, numbers, size};
 
 fn net<const V: usize>(points: &[f64], degree: usize) -> SimplexNet<'_, f64, V> {
@@ -69,53 +71,84 @@ fn exact_cases() {
     }
 }
 
-fn elevation<const V: usize>(seed: u64, rounds: usize) {
+/// Degrees up to 5; one case in a hundred up to 40.
+fn elevation<const V: usize>(seed: u64, cases: usize) {
     let mut hunter = Hunter::new(seed);
-    for round in 0..rounds {
-        let (n, by) = if round == 0 { (24 / V, 2) } else { (hunter.below(6), hunter.below(5)) };
+    for round in 0..rounds(cases) {
+        let n = if round == 0 { 38 } else { hunter.degree_of(5, 38, 100) };
+        let by = if n > 5 { 1 + hunter.below(2) } else { hunter.below(5) };
         let points = hunter.numbers(simplex_count::<V>(n));
         let (q, sizes) = (exacts(&points), absolutes(&exacts(&points)));
         let out = elevated::<V>(&points, n, n + by);
-        let below = indices(V, n);
-        for (index, got) in indices(V, n + by).iter().zip(out) {
-            let weights: Vec<Q> = below
-                .iter()
-                .map(|b| {
-                    let ways = index.iter().zip(b).map(|(&c, &b)| choose(c, b));
-                    ways.fold(Q::one(), |w, c| w * c) / choose(n + by, n)
-                })
-                .collect();
-            let scale = dot(&weights, &sizes);
-            assert_within(got, &dot(&weights, &q), &scale, (V + 1) * by, "elevation");
+        let whole = choose(n + by, n);
+        for (at, index) in places(&mut hunter, V, n + by) {
+            // β = γ − δ over all δ ≤ γ of degree `by`.
+            let (mut truth, mut scale) = (Q::zero(), Q::zero());
+            for (below, weight) in shares(&index, by) {
+                truth += &weight * &q[below];
+                scale += weight * &sizes[below];
+            }
+            assert_within(out[at], &(truth / &whole), &(scale / &whole), (V + 1) * by, "elevation");
         }
     }
+}
+
+/// The places to compare of a net, with their multi-indices: all of a small one, of a large one some at random.
+fn places(hunter: &mut Hunter, vertices: usize, degree: usize) -> Vec<(usize, Vec<usize>)> {
+    let all: Vec<_> = indices(vertices, degree).into_iter().enumerate().collect();
+    if all.len() <= 300 {
+        return all;
+    }
+    (0..40).map(|_| all[hunter.below(all.len())].clone()).collect()
+}
+
+/// All β = γ − δ with δ ≤ γ of a degree: their places, and `Π C(γₐ, βₐ)`.
+fn shares(index: &[usize], taken: usize) -> Vec<(usize, Q)> {
+    let parts = indices(index.len(), taken).into_iter();
+    let left = parts.filter_map(|part| {
+        let rest: Option<Vec<usize>> = index.iter().zip(&part).map(|(c, d)| c.checked_sub(*d)).collect();
+        rest.map(|rest| (place(&rest), index.iter().zip(&rest).map(|(&c, &b)| choose(c, b)).product()))
+    });
+    left.collect()
 }
 
 #[test]
 fn elevation_is_exact_to_its_bound() {
     elevation::<3>(61, 1000);
-    elevation::<4>(62, 300);
+    elevation::<4>(62, 1000);
 }
 
-fn restriction<const V: usize>(seed: u64, rounds: usize, most: usize) {
+/// Degrees up to `usual`; once `most` and one case in 200 up to half of it, where a point or two of each net are
+/// compared.
+fn restriction<const V: usize>(seed: u64, cases: usize, usual: usize, most: usize) {
     let mut hunter = Hunter::new(seed);
-    for _ in 0..rounds {
-        let n = hunter.below(most + 1);
+    for round in 0..rounds(cases) {
+        let n = if round == 0 { most } else { hunter.degree_of(usual, most / 2, 200) };
         let points = hunter.numbers(simplex_count::<V>(n));
         let corners: [[f64; V]; V] = std::array::from_fn(|_| hunter.barycentric::<V>());
         let (q, sizes) = (exacts(&points), absolutes(&exacts(&points)));
+        let all = indices(V, n);
+        let compared: Vec<usize> = if n <= usual {
+            (0..all.len()).collect()
+        } else {
+            (0..if n < most { 2 } else { 1 }).map(|_| hunter.below(all.len())).collect()
+        };
         let check = |corners: &[[f64; V]; V], got: &[f64]| {
-            for (index, &got) in indices(V, n).iter().zip(got) {
+            let by_corner = corners.map(|c| exacts(&c));
+            for &at in &compared {
                 let of = |size: bool| -> Vec<Vec<Q>> {
-                    let corners =
-                        index.iter().zip(corners).flat_map(|(&b, c)| std::iter::repeat_n(exacts(c), b));
-                    corners.map(|c| if size { absolute(&c) } else { c }).collect()
+                    let pairs = all[at].iter().zip(&by_corner);
+                    let corners = pairs.flat_map(|(&b, c)| std::iter::repeat_n(c, b));
+                    corners.map(|c| if size { absolute(c) } else { c.clone() }).collect()
                 };
                 let scale = blossom(&sizes, n, &of(true)) + floor(&q);
-                assert_within(got, &blossom(&q, n, &of(false)), &scale, factor(n, 0), "restriction");
+                assert_within(got[at], &blossom(&q, n, &of(false)), &scale, factor(n, 0), "restriction");
             }
         };
         check(&corners, &restricted(&points, n, corners));
+        if points.len() > 2000 {
+            continue; // one exact blossom takes a second
+        }
 
         // A split is a restriction with one vertex replaced, and so is that of an edge.
         let whole: [[f64; V]; V] =
@@ -144,9 +177,9 @@ fn restriction<const V: usize>(seed: u64, rounds: usize, most: usize) {
 
 #[test]
 fn restriction_is_the_blossom() {
-    restriction::<2>(70, 1000, 8);
-    restriction::<3>(71, 500, 5);
-    restriction::<4>(72, 150, 3);
+    restriction::<2>(70, 1000, 8, 100);
+    restriction::<3>(71, 1000, 5, 40);
+    restriction::<4>(72, 1000, 3, 40);
 }
 
 #[test]
@@ -202,34 +235,33 @@ fn meeting<const V: usize>(parts: &[[[f64; V]; V]], nets: &[f64], n: usize) -> u
     met
 }
 
-fn products<const V: usize>(seed: u64, rounds: usize) {
+/// Degrees of the factors up to 5, and one in a hundred up to 20.
+fn products<const V: usize>(seed: u64, cases: usize) {
     let mut hunter = Hunter::new(seed);
-    for round in 0..rounds {
-        let (n, m) = if round == 0 { (8, 7) } else { (hunter.below(6), hunter.below(6)) };
+    for round in 0..rounds(cases) {
+        let [n, m] = [0; 2].map(|_: usize| if round == 0 { 20 } else { hunter.degree_of(5, 20, 100) });
         let (p, f) = (hunter.numbers(simplex_count::<V>(n)), hunter.numbers(simplex_count::<V>(m)));
         let (of_p, of_f) = (exacts(&p), exacts(&f));
         let (mut out, mut swapped) =
             (vec![f64::NAN; simplex_count::<V>(n + m)], vec![f64::NAN; simplex_count::<V>(n + m)]);
         net::<V>(&p, n).product(&net(&f, m), &mut out).unwrap();
         net::<V>(&f, m).product(&net(&p, n), &mut swapped).unwrap();
-        let (in_p, in_f) = (indices(V, n), indices(V, m));
-        for ((index, got), swapped) in indices(V, n + m).iter().zip(out).zip(swapped) {
+        let in_f = indices(V, m);
+        let whole = choose(n + m, n);
+        for (at, index) in places(&mut hunter, V, n + m) {
             let (mut truth, mut scale) = (Q::zero(), Q::zero());
-            for (b, x) in in_p.iter().zip(&of_p) {
-                let Some(rest) =
-                    index.iter().zip(b).map(|(g, b)| g.checked_sub(*b)).collect::<Option<Vec<_>>>()
-                else {
-                    continue;
-                };
-                let place = in_f.binary_search_by(|other| rest.cmp(other)).unwrap();
-                let weight = index.iter().zip(b).fold(Q::one(), |w, (&g, &b)| w * choose(g, b));
-                let term = x * &of_f[place] * weight / choose(n + m, n);
-                scale += num_traits::Signed::abs(&term);
+            for (other, x) in in_f.iter().zip(&of_f) {
+                let own: Option<Vec<usize>> =
+                    index.iter().zip(other).map(|(g, b)| g.checked_sub(*b)).collect();
+                let Some(own) = own else { continue };
+                let ways: Q = index.iter().zip(&own).map(|(&g, &b)| choose(g, b)).product();
+                let term = x * &of_p[place(&own)] * ways;
+                scale += term.abs();
                 truth += term;
             }
-            let scale = scale + exact(f64::MIN_POSITIVE) / exact(U);
-            assert_within(got, &truth, &scale, factor(n + m, 0), "product");
-            assert_within(swapped, &truth, &scale, factor(n + m, 0), "product the other way");
+            let (truth, scale) = (truth / &whole, scale / &whole + exact(f64::MIN_POSITIVE) / exact(U));
+            assert_within(out[at], &truth, &scale, factor(n + m, 0), "product");
+            assert_within(swapped[at], &truth, &scale, factor(n + m, 0), "product the other way");
         }
         // The sum, in the larger degree: values agree.
         let degree = n.max(m);
@@ -244,7 +276,7 @@ fn products<const V: usize>(seed: u64, rounds: usize) {
             let size: Q = l.iter().sum();
             let outside = num_traits::pow(size, degree);
             let scale = (value(&absolutes(&of_p), n, &l) + value(&absolutes(&of_f), m, &l)) * outside;
-            let off = num_traits::Signed::abs(&(value(&exacts(&sum), degree, &lambda) - truth));
+            let off = (value(&exacts(&sum), degree, &lambda) - truth).abs();
             assert!(off <= scale * exact(U) * integer(factor(degree + V, 0)), "sum");
         }
     }
@@ -254,7 +286,7 @@ fn products<const V: usize>(seed: u64, rounds: usize) {
 fn products_are_exact_to_their_bound() {
     products::<2>(90, 1000);
     products::<3>(91, 1000);
-    products::<4>(92, 300);
+    products::<4>(92, 1000);
 }
 
 /// Powers of 1 stay 1 to degree 200, and points of 10¹⁰⁰ do not overflow.
@@ -332,6 +364,33 @@ fn reduction_is_exact_where_it_can_be_and_the_nearest_elsewhere() {
     reduction::<4>(102, &[(2, 1), (3, 2), (5, 3), (7, 4)]);
 }
 
+/// Whatever is elevated comes back, points of very different size included.
+fn reduction_of_elevated<const V: usize>(seed: u64) {
+    let mut hunter = Hunter::new(seed);
+    for _ in 0..rounds(1000) {
+        let to = 1 + hunter.degree_of(4, 10, 100);
+        let from = to + 1 + hunter.below(3);
+        let low = hunter.numbers(simplex_count::<V>(to));
+        let high = elevated::<V>(&low, to, from);
+        let mut out = vec![f64::NAN; low.len()];
+        let bound = net::<V>(&high, from).reduce(to, &mut out, &mut vec![f64::NAN; 4 * high.len()]).unwrap();
+        // κ² is the product over the degrees; κ²·n·u times the length of P, at most √count of its largest point.
+        let condition =
+            (to + 1..=from).fold(1.0, |c, j| c / (1.0 - (to * (to + 1)) as f64 / (j * (j + 1)) as f64));
+        let length = high.iter().map(|p| p * p).sum::<f64>().sqrt();
+        let allowed = (4 * (from + 2)) as f64 * U * condition * length + f64::MIN_POSITIVE;
+        let off = low.iter().zip(&out).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
+        assert!(off <= allowed, "{from} to {to} over {V}: off {off:e}, allowed {allowed:e}");
+        assert!(bound <= allowed, "{from} to {to}: bound {bound:e}");
+    }
+}
+
+#[test]
+fn reduction_undoes_elevation() {
+    reduction_of_elevated::<3>(103);
+    reduction_of_elevated::<4>(104);
+}
+
 #[test]
 fn wrong_lengths_and_degrees_are_refused() {
     let points = [0.0; 6];
@@ -377,7 +436,7 @@ fn wrong_lengths_and_degrees_are_refused() {
 #[test]
 fn compositions() {
     let mut hunter = Hunter::new(110);
-    for _ in 0..50 {
+    for _ in 0..rounds(1000) {
         let (n, d) = (hunter.below(5), hunter.below(4));
         let outer: Vec<f64> = (0..simplex_count::<3>(n)).map(|_| hunter.unit() - 0.5).collect();
         let mut argument =

@@ -3,7 +3,7 @@
 
 mod support;
 
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Zero};
 
 use casteljau_bernstein::{
     SimplexNet, WedgeNet, last_barycentric, simplex_basis, simplex_basis_partials, simplex_count,
@@ -11,14 +11,23 @@ use casteljau_bernstein::{
 use support::U;
 use support::exact::{
     Hunter, Q, absolute_pair, absolutes, assert_within, differentiate, dot, exact, exacts, factor, integer,
-    pair,
+    pair, rounds,
 };
-use support::simplices::{absolute, basis, blossom, differentiated, floor, indices};
+use support::simplices::{absolute, basis, blossom, differentiated, floor, indices, place};
+
+#[test]
+fn places_of_the_referee_count_up() {
+    for (vertices, degree) in [(2, 9), (3, 0), (3, 12), (4, 11)] {
+        let places: Vec<usize> = indices(vertices, degree).iter().map(|index| place(index)).collect();
+        assert!(places.iter().copied().eq(0..places.len()), "{vertices} {degree}: {places:?}");
+    }
+}
 
 fn values<const V: usize>(seed: u64, cases: usize, most: usize) {
     let mut hunter = Hunter::new(seed);
-    for case in 0..cases {
-        let n = if case == 0 { most } else { hunter.degree(most.min(20)) };
+    for case in 0..rounds(cases) {
+        // One in a hundred up to the limit.
+        let n = if case == 0 { most } else { hunter.degree_of(9, most, 100) };
         let (points, lambda) = (hunter.numbers(simplex_count::<V>(n)), hunter.barycentric::<V>());
         let (q, l) = (exacts(&points), exacts(&lambda));
         let truth = dot(&basis(n, &l), &q);
@@ -55,11 +64,12 @@ fn values_over_intervals() {
     values::<2>(13, 1000, 100);
 }
 
-fn partials<const V: usize>(seed: u64, cases: usize, most: usize) {
+/// Degrees up to `most`, one in `rarely` of them; of a high one derivatives to order 2.
+fn partials<const V: usize>(seed: u64, cases: usize, most: usize, rarely: usize) {
     let mut hunter = Hunter::new(seed);
-    for case in 0..cases {
-        let n = if case == 0 { most } else { hunter.below(6) };
-        let order = if case == 0 { 2 } else { hunter.below(5) };
+    for case in 0..rounds(cases) {
+        let n = if case == 0 { most } else { hunter.degree_of(5, most, rarely) };
+        let order = if n > 5 { 2 } else { hunter.below(5) };
         let (points, lambda) = (hunter.numbers(simplex_count::<V>(n)), hunter.barycentric::<V>());
         let (q, l) = (exacts(&points), exacts(&lambda));
         let net = SimplexNet::<_, V>::new(&points, n).unwrap();
@@ -91,19 +101,19 @@ fn partials<const V: usize>(seed: u64, cases: usize, most: usize) {
 
 #[test]
 fn partials_over_triangles() {
-    partials::<3>(21, 1000, 20);
+    partials::<3>(21, 1000, 40, 100);
 }
 
 #[test]
 fn partials_over_tetrahedra() {
-    partials::<4>(22, 1000, 10);
+    partials::<4>(22, 1000, 40, 400);
 }
 
 /// Blossoms, and directional derivatives as blossoms with vectors among the arguments.
 fn blossoms<const V: usize>(seed: u64, cases: usize) {
     let mut hunter = Hunter::new(seed);
-    for _ in 0..cases {
-        let n = hunter.below(7);
+    for _ in 0..rounds(cases) {
+        let n = hunter.degree_of(6, 40, if V == 3 { 100 } else { 400 });
         let points = hunter.numbers(simplex_count::<V>(n));
         let q = exacts(&points);
         let net = SimplexNet::<_, V>::new(&points, n).unwrap();
@@ -148,7 +158,7 @@ fn blossoms_over_tetrahedra() {
 #[test]
 fn the_last_barycentric_keeps_its_digits() {
     let mut hunter = Hunter::new(41);
-    for _ in 0..5000 {
+    for _ in 0..rounds(5000) {
         let free = [hunter.parameter(), hunter.parameter() - 0.5, hunter.parameter()];
         for free in [&free[..1], &free[..2], &free] {
             let truth = Q::one() - free.iter().map(|&x| exact(x)).sum::<Q>();
@@ -162,9 +172,12 @@ fn the_last_barycentric_keeps_its_digits() {
 #[test]
 fn wedges() {
     let mut hunter = Hunter::new(51);
-    for case in 0..1000 {
-        let (n, o) = if case == 0 { (12, 12) } else { (hunter.below(5), hunter.below(5)) };
-        let order = if case == 0 { 1 } else { hunter.below(4) };
+    for case in 0..rounds(1000) {
+        let (n, o) = match case {
+            0 => (20, 20),
+            _ => (hunter.degree_of(4, 20, 50), hunter.degree_of(4, 20, 50)),
+        };
+        let order = if n.max(o) > 4 { 1 } else { hunter.below(4) };
         let points = hunter.numbers(WedgeNet::<f64>::count([n, o]));
         let (lambda, w) = (hunter.barycentric::<3>(), hunter.parameter());
         let net = WedgeNet::new(&points, [n, o]).unwrap();

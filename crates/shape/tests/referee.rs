@@ -1,43 +1,23 @@
-//! Rational shapes against exact arithmetic: value and derivatives to order 3 by the quotient rule in rational
-//! numbers, and poles where the exact denominator is small.
+//! Shapes against exact arithmetic: value and derivatives to order 3, of rational ones by the quotient rule in
+//! rational numbers, and poles where the exact denominator is small. Degrees are small, and one in a hundred goes up to 100
+//! of curves, 20 of patches and 40 of triangles.
 #![allow(clippy::unwrap_used)] // helpers of tests
 
 mod support;
 
-use casteljau_geom::glam::DVec4;
+use casteljau_geom::glam::{DVec3, DVec4};
 use casteljau_geom::{Partials, UNIT_ROUNDOFF, multi_indices, partial_count, partial_index};
 use casteljau_shape::{
-    ParametricCurve, ParametricSurface, RationalCurve, RationalPatch, RationalTriangle, ShapeError,
+    Curve, ParametricCurve, ParametricSurface, Patch, RationalCurve, RationalPatch, RationalTriangle,
+    ShapeError, Triangle,
 };
-use num_rational::BigRational;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::{One, Zero};
 use proptest::collection::vec;
 use proptest::prelude::*;
+use support::exact::{Q, assert_within, choose, exact, factor, factorial, power, rounds};
 use support::homogeneous_point;
 
-type Q = BigRational;
-
 const ORDER: usize = 3;
-
-fn exact(x: f64) -> Q {
-    Q::from_float(x).unwrap()
-}
-
-fn whole(n: usize) -> Q {
-    Q::from_integer(n.into())
-}
-
-fn factorial(n: usize) -> Q {
-    (1..=n).map(whole).product()
-}
-
-fn choose(n: usize, k: usize) -> Q {
-    if k > n { Q::zero() } else { factorial(n) / factorial(k) / factorial(n - k) }
-}
-
-fn power(x: &Q, k: usize) -> Q {
-    num_traits::pow(x.clone(), k)
-}
 
 /// The k-th derivative of a Bernstein polynomial, and the sum of the absolute values of its parts:
 /// `n!/(n−k)! Σⱼ (−1)ᵏ⁻ʲ C(k,j) Bᵢ₋ⱼⁿ⁻ᵏ`.
@@ -82,33 +62,61 @@ fn triangle_basis(n: usize, index: [usize; 3], orders: [usize; 2], lambda: &[Q; 
     sums
 }
 
-/// Compares a shape's answer with the exact one. `basis` gives a basis function's derivative of some orders, and its
-/// scale.
+/// Derivatives of some orders of the homogeneous coordinates, and their scales. `basis` gives those of a basis
+/// function.
+fn derivatives<const N: usize>(
+    net: &[DVec4],
+    basis: impl Fn(usize, [usize; N]) -> [Q; 2],
+    orders: [usize; N],
+) -> [[Q; 2]; 4] {
+    let mut sums: [[Q; 2]; 4] = std::array::from_fn(|_| [Q::zero(), Q::zero()]);
+    for (place, p) in net.iter().enumerate() {
+        let [b, absolute] = basis(place, orders);
+        for (axis, sum) in sums.iter_mut().enumerate() {
+            sum[0] += exact(p[axis]) * &b;
+            sum[1] += exact(p[axis]).abs() * &absolute;
+        }
+    }
+    sums
+}
+
+/// Compares a polynomial shape's answer with the exact one.
+fn judge_polynomial<const N: usize>(
+    net: &[DVec4],
+    degree: usize,
+    basis: impl Fn(usize, [usize; N]) -> [Q; 2],
+    got: &Partials<N>,
+) {
+    for orders in multi_indices::<N>(ORDER) {
+        let sums = derivatives(net, &basis, orders);
+        let factor = factor(degree, orders.iter().sum());
+        for (axis, [truth, scale]) in sums.iter().enumerate().take(3) {
+            let what = format!("{orders:?} of degree {degree}, axis {axis}");
+            assert_within(got.get(orders).unwrap()[axis], truth, scale, factor, &what);
+        }
+    }
+}
+
+/// Compares a rational shape's answer with the exact one.
 fn judge<const N: usize>(
     net: &[DVec4],
     degree: usize,
     basis: impl Fn(usize, [usize; N]) -> [Q; 2],
     got: Result<Partials<N>, ShapeError>,
 ) -> Result<(), TestCaseError> {
-    let number = |q: &Q| q.to_f64().unwrap();
-    let mut homogeneous = Vec::new();
-    for orders in multi_indices::<N>(ORDER) {
-        let mut sums: [[Q; 2]; 4] = std::array::from_fn(|_| [Q::zero(), Q::zero()]);
-        for (place, p) in net.iter().enumerate() {
-            let [b, absolute] = basis(place, orders);
-            for (axis, sum) in sums.iter_mut().enumerate() {
-                sum[0] += exact(p[axis]) * &b;
-                sum[1] += exact(p[axis]).abs() * &absolute;
-            }
-        }
-        homogeneous.push(sums);
-    }
+    let number = |q: &Q| q.to_f64();
+    let homogeneous: Vec<_> =
+        multi_indices::<N>(ORDER).map(|orders| derivatives(net, &basis, orders)).collect();
     let [w, w_scale] = &homogeneous[0][3];
     let bound = 4.0 * (degree + 2) as f64 * UNIT_ROUNDOFF * number(w_scale);
     let got = match got {
         Ok(got) => got,
         Err(error) => {
-            prop_assert!(number(&w.abs()) <= 2.0 * bound, "{error} though w = {w}, within {bound:e}");
+            prop_assert!(
+                number(&w.abs()) <= 2.0 * bound,
+                "{error} though w = {:e}, within {bound:e}",
+                number(w)
+            );
             return Ok(());
         }
     };
@@ -148,12 +156,6 @@ fn judge<const N: usize>(
     Ok(())
 }
 
-/// So many cases; forty times as many where `CASTELJAU_LONG` is set.
-fn cases(usual: u32) -> ProptestConfig {
-    let factor = if std::env::var_os("CASTELJAU_LONG").is_some() { 40 } else { 1 };
-    ProptestConfig::with_cases(usual * factor)
-}
-
 fn parameter() -> impl Strategy<Value = f64> {
     prop_oneof![
         4 => 0.0..=1.0,
@@ -164,47 +166,81 @@ fn parameter() -> impl Strategy<Value = f64> {
     ]
 }
 
+/// A degree: up to `usual`, one in a hundred up to `most`.
+fn degree(usual: usize, most: usize) -> impl Strategy<Value = usize> {
+    prop_oneof![99 => 0..=usual, 1 => 0..=most]
+}
+
+fn curve_net() -> impl Strategy<Value = Vec<DVec4>> {
+    degree(10, 100).prop_flat_map(|n| vec(homogeneous_point(), n + 1))
+}
+
+fn patch_net() -> impl Strategy<Value = ([usize; 2], Vec<DVec4>)> {
+    [degree(3, 20), degree(3, 20)]
+        .prop_flat_map(|[m, n]| (Just([m, n]), vec(homogeneous_point(), (m + 1) * (n + 1))))
+}
+
+fn triangle_net() -> impl Strategy<Value = (usize, Vec<DVec4>)> {
+    degree(4, 40).prop_flat_map(|n| (Just(n), vec(homogeneous_point(), (n + 1) * (n + 2) / 2)))
+}
+
+/// The points of a net as they stand, without weights.
+fn polynomial(net: &[DVec4]) -> (Vec<DVec4>, Vec<DVec3>) {
+    (net.iter().map(|p| p.truncate().extend(1.0)).collect(), net.iter().map(|p| p.truncate()).collect())
+}
+
 proptest! {
-    #![proptest_config(cases(50))]
+    #![proptest_config(ProptestConfig::with_cases(rounds(2000) as u32))]
 
     #[test]
-    fn curves(net in vec(homogeneous_point(), 1..12), t in parameter()) {
-        prop_assume!(net.iter().any(|p| p.w != 0.0));
+    fn curves(net in curve_net(), t in parameter()) {
         let n = net.len() - 1;
-        let curve = RationalCurve::from_homogeneous(net.clone()).unwrap();
         let exact_t = exact(t);
-        judge::<1>(&net, n, |i, [k]| bernstein(n, i, k, &exact_t), curve.try_jet_of_order(t, ORDER))?;
+        let basis = |i: usize, [k]: [usize; 1]| bernstein(n, i, k, &exact_t);
+        let (lifted, points) = polynomial(&net);
+        judge_polynomial(&lifted, n, basis, &Curve::new(points).unwrap().try_jet_of_order(t, ORDER).unwrap());
+        prop_assume!(net.iter().any(|p| p.w != 0.0));
+        let curve = RationalCurve::from_homogeneous(net.clone()).unwrap();
+        judge(&net, n, basis, curve.try_jet_of_order(t, ORDER))?;
     }
 }
 
 proptest! {
-    #![proptest_config(cases(10))]
+    #![proptest_config(ProptestConfig::with_cases(rounds(1000) as u32))]
 
     #[test]
-    fn patches(m in 0..4usize, n in 0..4usize, net in vec(homogeneous_point(), 16), u in parameter(), v in parameter()) {
-        let net = &net[..(m + 1) * (n + 1)];
-        prop_assume!(net.iter().any(|p| p.w != 0.0));
-        let patch = RationalPatch::from_homogeneous([m, n], net).unwrap();
-        let (x, y) = (exact(u), exact(v));
+    fn patches(([m, n], net) in patch_net(), u in parameter(), v in parameter()) {
+        let table = |n: usize, t: f64| -> Vec<Vec<[Q; 2]>> {
+            let t = exact(t);
+            (0..=n).map(|i| (0..=ORDER).map(|k| bernstein(n, i, k, &t)).collect()).collect()
+        };
+        let (in_u, in_v) = (table(m, u), table(n, v));
         let basis = |place: usize, [a, b]: [usize; 2]| {
-            let (p, q) = (bernstein(m, place / (n + 1), a, &x), bernstein(n, place % (n + 1), b, &y));
+            let (p, q) = (&in_u[place / (n + 1)][a], &in_v[place % (n + 1)][b]);
             [&p[0] * &q[0], &p[1] * &q[1]]
         };
-        judge::<2>(net, m + n, basis, patch.try_jet_of_order(u, v, ORDER))?;
+        let (lifted, points) = polynomial(&net);
+        let patch = Patch::new([m, n], points).unwrap();
+        judge_polynomial(&lifted, m + n, basis, &patch.try_jet_of_order(u, v, ORDER).unwrap());
+        prop_assume!(net.iter().any(|p| p.w != 0.0));
+        let patch = RationalPatch::from_homogeneous([m, n], &net[..]).unwrap();
+        judge(&net, m + n, basis, patch.try_jet_of_order(u, v, ORDER))?;
     }
 
     #[test]
-    fn triangles(n in 0..5usize, net in vec(homogeneous_point(), 15), u in parameter(), v in parameter()) {
-        let net = &net[..(n + 1) * (n + 2) / 2];
-        prop_assume!(net.iter().any(|p| p.w != 0.0));
-        let triangle = RationalTriangle::from_homogeneous(n, net).unwrap();
+    fn triangles((n, net) in triangle_net(), u in parameter(), v in parameter()) {
         let lambda = [exact(u), exact(v), Q::one() - exact(u) - exact(v)];
         let mut indices = Vec::new();
         for i in (0..=n).rev() {
             indices.extend((0..=n - i).rev().map(|j| [i, j, n - i - j]));
         }
         let basis = |place: usize, orders: [usize; 2]| triangle_basis(n, indices[place], orders, &lambda);
-        judge::<2>(net, n, basis, triangle.try_jet_of_order(u, v, ORDER))?;
+        let (lifted, points) = polynomial(&net);
+        let triangle = Triangle::new(n, points).unwrap();
+        judge_polynomial(&lifted, n, basis, &triangle.try_jet_of_order(u, v, ORDER).unwrap());
+        prop_assume!(net.iter().any(|p| p.w != 0.0));
+        let triangle = RationalTriangle::from_homogeneous(n, &net[..]).unwrap();
+        judge(&net, n, basis, triangle.try_jet_of_order(u, v, ORDER))?;
     }
 }
 

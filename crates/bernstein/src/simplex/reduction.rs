@@ -84,8 +84,12 @@ fn elevate_through<P: Point, const V: usize>(from: usize, to: usize, net: &mut [
     }
 }
 
+fn dot<P: Point>(a: &[P], b: &[P]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a.dot(*b)).sum()
+}
+
 fn square<P: Point>(points: &[P]) -> f64 {
-    points.iter().map(|p| p.norm().powi(2)).sum()
+    dot(points, points)
 }
 
 /// Conjugate gradients for the normal equations of `E x = r`, corners apart; x is added to `q`.
@@ -106,7 +110,9 @@ fn improve<P: Point, const V: usize>(n: usize, to: usize, q: &mut [P], residual:
         }
         image[..low].copy_from_slice(direction);
         elevate_through::<P, V>(to, n, image);
-        let step = size / square(image);
+        // In exact arithmetic the numerator is `size`. Where gradients are rounding errors it is not, and only this
+        // step leads to the minimum along the direction, however short that is.
+        let step = dot(&gradient[..low], direction) / square(image);
         if !step.is_finite() {
             break;
         }

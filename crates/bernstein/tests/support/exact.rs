@@ -5,13 +5,10 @@
 #![allow(dead_code)] // every test file uses its own share of this
 
 use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::{One, Zero};
 
 use super::U;
-
-/// An exact number.
-pub type Q = BigRational;
+pub use super::rational::Q;
 
 /// The rational number that an f64 is.
 pub fn exact(x: f64) -> Q {
@@ -23,7 +20,7 @@ pub fn exacts(x: &[f64]) -> Vec<Q> {
 }
 
 pub fn absolutes(x: &[Q]) -> Vec<Q> {
-    x.iter().map(Signed::abs).collect()
+    x.iter().map(Q::abs).collect()
 }
 
 pub fn integer(n: usize) -> Q {
@@ -50,34 +47,10 @@ pub fn powers(x: &Q, n: usize) -> Vec<Q> {
     std::iter::successors(Some(Q::one()), |p| Some(p * x)).take(n + 1).collect()
 }
 
-/// Numbers over a common denominator: lists are added and multiplied so, because fractions reduced at every
-/// step are slow.
-pub fn common(list: &[Q]) -> (Vec<BigInt>, BigInt) {
-    let denominator = list.iter().fold(BigInt::from(1), |common, q| {
-        if common == *q.denom() || (&common % q.denom()).is_zero() {
-            common
-        } else if (q.denom() % &common).is_zero() {
-            q.denom().clone()
-        } else {
-            common * q.denom()
-        }
-    });
-    let numerators = list.iter().map(|q| {
-        if *q.denom() == denominator { q.numer().clone() } else { q.numer() * (&denominator / q.denom()) }
-    });
-    (numerators.collect(), denominator)
-}
-
 /// All `C(n,i) sⁿ⁻ⁱ tⁱ`; s + t need not be 1.
 pub fn basis_of(n: usize, s: &Q, t: &Q) -> Vec<Q> {
-    let (pair, denominator) = common(&[s.clone(), t.clone()]);
-    let powers = |x: &BigInt| -> Vec<BigInt> {
-        std::iter::successors(Some(BigInt::from(1)), |p| Some(p * x)).take(n + 1).collect()
-    };
-    let (in_s, in_t) = (powers(&pair[0]), powers(&pair[1]));
-    let denominator = num_traits::pow(denominator, n);
-    let numerators = (0..=n).map(|i| choose(n, i).numer() * &in_s[n - i] * &in_t[i]);
-    numerators.map(|numerator| Q::new_raw(numerator, denominator.clone())).collect()
+    let (in_s, in_t) = (powers(s, n), powers(t, n));
+    (0..=n).map(|i| choose(n, i) * &in_s[n - i] * &in_t[i]).collect()
 }
 
 /// All Bernstein polynomials of degree n at t.
@@ -91,23 +64,23 @@ pub fn absolute_basis(n: usize, t: &Q) -> Vec<Q> {
 }
 
 pub fn dot(a: &[Q], b: &[Q]) -> Q {
-    let ((a, below_a), (b, below_b)) = (common(a), common(b));
-    Q::new_raw(a.iter().zip(&b).map(|(a, b)| a * b).sum(), below_a * below_b)
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// The product of two polynomials on the interval.
 pub fn product(a: &[Q], b: &[Q]) -> Vec<Q> {
     let (m, n) = (a.len() - 1, b.len() - 1);
-    let ((a, below_a), (b, below_b)) = (common(a), common(b));
-    let below = below_a * below_b;
-    let mut out = vec![BigInt::from(0); m + n + 1];
-    for (i, a) in a.iter().enumerate() {
-        let a = choose(m, i).numer() * a;
+    let scaled = |list: &[Q], degree| -> Vec<Q> {
+        list.iter().enumerate().map(|(i, p)| choose(degree, i) * p).collect()
+    };
+    let mut out = vec![Q::zero(); m + n + 1];
+    let b = scaled(b, n);
+    for (i, a) in scaled(a, m).iter().enumerate() {
         for (j, b) in b.iter().enumerate() {
-            out[i + j] += choose(n, j).numer() * &a * b;
+            out[i + j] += a * b;
         }
     }
-    out.into_iter().enumerate().map(|(k, p)| Q::new(p, choose(m + n, k).numer() * &below)).collect()
+    out.into_iter().enumerate().map(|(k, p)| p / choose(m + n, k)).collect()
 }
 
 /// Value of a polynomial on the interval.
@@ -122,22 +95,19 @@ pub fn scale(points: &[Q], t: &Q) -> Q {
 
 /// Derivative polynomial, with its n points.
 pub fn differentiate(points: &[Q]) -> Vec<Q> {
-    let (points, below) = common(points);
-    let difference = |w: &[BigInt]| Q::new_raw((&w[1] - &w[0]) * (points.len() - 1), below.clone());
-    points.windows(2).map(difference).collect()
+    let degree = integer(points.len() - 1);
+    points.windows(2).map(|w| (&w[1] - &w[0]) * &degree).collect()
 }
 
 /// Affine combinations by a list of pairs (1 − t, t), one level each: the blossom. With pairs taken absolutely,
 /// and points too, its scale.
 pub fn blossom_of(points: &[Q], pairs: &[(Q, Q)]) -> Q {
-    let (mut level, mut below) = common(points);
+    let mut level = points.to_vec();
     for (s, t) in pairs {
-        let (pair, denominator) = common(&[s.clone(), t.clone()]);
-        level = level.windows(2).map(|w| &w[0] * &pair[0] + &w[1] * &pair[1]).collect();
-        below *= denominator;
+        level = level.windows(2).map(|w| &w[0] * s + &w[1] * t).collect();
     }
     assert_eq!(level.len(), 1, "as many arguments as the degree");
-    Q::new_raw(level.remove(0), below)
+    level.remove(0)
 }
 
 pub fn pair(t: &Q) -> (Q, Q) {
@@ -179,21 +149,17 @@ pub fn tensor_sum(points: &[Q], weights: &[Vec<Q>]) -> Q {
 #[track_caller]
 pub fn assert_within(computed: f64, truth: &Q, scale: &Q, factor: usize, what: &str) {
     assert!(computed.is_finite(), "{what}: {computed}");
-    let x = exact(computed);
-    // Compared as integers: to reduce fractions of this length takes longer than all the rest.
-    let off = (x.numer() * truth.denom() - truth.numer() * x.denom()).abs() * scale.denom();
-    let all = x.denom() * truth.denom();
-    let allowed = scale.numer() * factor * &all;
-    if &off << 53_usize <= allowed {
+    let off = (exact(computed) - truth).abs();
+    let allowed = (scale * integer(factor)).times_power_of_two(-53);
+    if off <= allowed {
         return;
     }
-    let tiny = scale.denom() * all;
     assert!(
-        off << 1022_usize <= (allowed << 969_usize) + tiny,
+        off <= &allowed + exact(f64::MIN_POSITIVE),
         "{what}: {computed:e} instead of {:e}, off {:e}, allowed {:e}",
-        truth.to_f64().unwrap_or(f64::NAN),
-        (x - truth).to_f64().unwrap_or(f64::NAN),
-        factor as f64 * U * scale.to_f64().unwrap_or(f64::NAN)
+        truth.to_f64(),
+        off.to_f64(),
+        allowed.to_f64()
     );
 }
 
@@ -202,13 +168,22 @@ pub fn factor(degree: usize, order: usize) -> usize {
     4 * (degree + 2 * order + 2)
 }
 
+/// So many random cases; as many as `PROPTEST_CASES` says where that is more.
+pub fn rounds(usual: usize) -> usize {
+    let asked = std::env::var("PROPTEST_CASES").ok().and_then(|cases| cases.parse().ok());
+    asked.unwrap_or(0).max(usual)
+}
+
 /// A repeatable source of numbers that hunt for trouble: half of them near 0, ±1 or a power of two, the rest
 /// with exponents spread; repeats are frequent.
 pub struct Hunter(u64);
 
 impl Hunter {
+    /// Other numbers for another seed, and for another `PROPTEST_RNG_SEED`.
     pub fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
+        let run: u64 =
+            std::env::var("PROPTEST_RNG_SEED").ok().and_then(|seed| seed.parse().ok()).unwrap_or(0);
+        Self((seed ^ run << 32).wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
     }
 
     pub fn bits(&mut self) -> u64 {
@@ -265,8 +240,28 @@ impl Hunter {
         }
     }
 
-    /// A degree: mostly small, now and then up to `most`.
+    /// A degree: mostly small, one in fifty up to `most`, and of these each third `most` itself.
     pub fn degree(&mut self, most: usize) -> usize {
-        if self.below(250) == 0 { self.below(most + 1) } else { self.below(most.min(9) + 1) }
+        self.degree_of(9, most, 50)
+    }
+
+    /// A degree up to `usual`; one in `rarely` up to `most`, and of these each third `most` itself.
+    pub fn degree_of(&mut self, usual: usize, most: usize, rarely: usize) -> usize {
+        if self.below(rarely) > 0 {
+            self.below(most.min(usual) + 1)
+        } else if self.below(3) == 0 {
+            most
+        } else {
+            self.below(most + 1)
+        }
+    }
+
+    /// Degrees of a box: small, one in forty 20 along one axis.
+    pub fn box_degrees(&mut self) -> [usize; 3] {
+        let mut degrees = [0; 3].map(|_: usize| self.below(4));
+        if self.below(40) == 0 {
+            degrees[self.below(3)] = 20;
+        }
+        degrees
     }
 }

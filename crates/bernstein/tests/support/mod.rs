@@ -2,6 +2,7 @@
 #![allow(dead_code)] // every test file uses its own share of this
 
 pub mod exact;
+pub mod rational;
 pub mod simplices;
 
 use std::path::PathBuf;
@@ -68,6 +69,11 @@ pub fn parameter() -> impl Strategy<Value = f64> {
         1 => (0..1000i32).prop_map(|e| 2_f64.powi(-e)),
         1 => -1.0..2.0,
     ]
+}
+
+/// The number of control points of a tensor net.
+pub fn count(degrees: &[usize]) -> usize {
+    degrees.iter().map(|d| d + 1).product()
 }
 
 /// The numbers of a nested array, `depth` arrays deep, in order.

@@ -2,11 +2,11 @@
 #![allow(dead_code)] // every test file uses its own share of this
 
 use num_bigint::BigInt;
-use num_traits::{Signed, Zero};
+use num_traits::Zero;
 
 use casteljau_bernstein::last_barycentric;
 
-use super::exact::{Hunter, Q, common, exact, integer};
+use super::exact::{Hunter, Q, basis_of, dot, exact, integer, powers};
 
 /// All multi-indices of a degree with so many entries, descending lexicographically.
 pub fn indices(vertices: usize, degree: usize) -> Vec<Vec<usize>> {
@@ -23,10 +23,15 @@ pub fn indices(vertices: usize, degree: usize) -> Vec<Vec<usize>> {
     all
 }
 
-/// The place of a multi-index, by search.
+/// The place of a multi-index among all of its degree: those before it have the same first entries and then a
+/// larger one, `Σₐ C(βₐ + … + β_V + V − 1 − a, V − a)` many, a = 1, …, V − 1 counted from 0.
 pub fn place(index: &[usize]) -> usize {
-    let all = indices(index.len(), index.iter().sum());
-    all.binary_search_by(|other| index.cmp(other)).unwrap()
+    let (mut tail, mut place) = (0, 0);
+    for (below, entry) in (1..).zip(index[1..].iter().rev()) {
+        tail += entry;
+        place += (0..below).fold(1, |ways, j| ways * (tail + below - 1 - j) / (j + 1));
+    }
+    place
 }
 
 pub fn multinomial(index: &[usize]) -> Q {
@@ -42,41 +47,37 @@ pub fn multinomial(index: &[usize]) -> Q {
 
 /// All `n!/β! λ^β`.
 pub fn basis(degree: usize, lambda: &[Q]) -> Vec<Q> {
-    let (lambda, below) = common(lambda);
-    let powers = |l: &BigInt| -> Vec<BigInt> {
-        std::iter::successors(Some(BigInt::from(1)), |p| Some(p * l)).take(degree + 1).collect()
-    };
-    let powers: Vec<_> = lambda.iter().map(powers).collect();
-    let below = num_traits::pow(below, degree);
+    let powers: Vec<_> = lambda.iter().map(|l| powers(l, degree)).collect();
     let product = |index: &Vec<usize>| {
-        let ways = multinomial(index).numer().clone();
-        let product = index.iter().zip(&powers).fold(ways, |product, (&b, p)| product * &p[b]);
-        Q::new_raw(product, below.clone())
+        index.iter().zip(&powers).fold(multinomial(index), |product, (&b, p)| product * &p[b])
     };
     indices(lambda.len(), degree).iter().map(product).collect()
 }
 
+/// Value of a wedge of degrees [n, o] at λ and, in the height, (1 − w, w), which need not add up to 1.
+pub fn wedge_value(points: &[Q], [n, o]: [usize; 2], lambda: &[Q], (s, t): (&Q, &Q)) -> Q {
+    let in_height = basis_of(o, s, t);
+    let net: Vec<Q> = points.chunks(o + 1).map(|row| dot(row, &in_height)).collect();
+    dot(&net, &basis(n, lambda))
+}
+
 pub fn absolute(lambda: &[Q]) -> Vec<Q> {
-    lambda.iter().map(Signed::abs).collect()
+    lambda.iter().map(Q::abs).collect()
 }
 
 /// One level of a scheme: `Σ cₐ P_{β+eₐ}`.
 pub fn step(points: &[Q], degree: usize, combination: &[Q]) -> Vec<Q> {
     let vertices = combination.len();
-    let all = indices(vertices, degree);
-    let ((points, below), (combination, below_all)) = (common(points), common(combination));
-    let below = below * below_all;
-    let at = |index: &[usize]| &points[all.binary_search_by(|other| index.cmp(other)).unwrap()];
     indices(vertices, degree - 1)
         .into_iter()
         .map(|mut index| {
-            let mut sum = BigInt::from(0);
+            let mut sum = Q::zero();
             for (vertex, c) in combination.iter().enumerate().filter(|(_, c)| !c.is_zero()) {
                 index[vertex] += 1;
-                sum += at(&index) * c;
+                sum += &points[place(&index)] * c;
                 index[vertex] -= 1;
             }
-            Q::new_raw(sum, below.clone())
+            sum
         })
         .collect()
 }
@@ -111,7 +112,7 @@ pub fn differentiated(points: &[Q], degree: usize, vertices: usize, orders: &[us
 
 /// Contributions below this may vanish; expressed as an addition to a scale.
 pub fn floor(points: &[Q]) -> Q {
-    let largest = points.iter().map(Signed::abs).max().unwrap_or_else(Q::zero);
+    let largest = points.iter().map(Q::abs).max().unwrap_or_else(Q::zero);
     (largest + integer(1)) * exact(1e-290) / exact(super::U)
 }
 

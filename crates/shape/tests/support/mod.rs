@@ -1,12 +1,21 @@
 //! Reading the exact cases, and what properties are tried with.
 #![allow(dead_code)] // every test file uses its own share of this
 
+// The exact arithmetic of the kernels' tests.
+#[path = "../../../bernstein/tests/support/exact.rs"]
+pub mod exact;
+#[path = "../../../bernstein/tests/support/rational.rs"]
+pub mod rational;
+
 use std::path::PathBuf;
 
 use casteljau_geom::glam::{DVec3, DVec4};
 use casteljau_geom::{UNIT_ROUNDOFF, rounding_bound};
 use proptest::prelude::*;
 use serde_json::Value;
+
+/// Unit roundoff.
+pub const U: f64 = UNIT_ROUNDOFF;
 
 /// The cases of one golden file; none where the goldens are absent.
 pub fn cases(name: &str) -> Vec<Value> {
