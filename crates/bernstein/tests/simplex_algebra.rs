@@ -377,7 +377,8 @@ fn reduction_of_elevated<const V: usize>(seed: u64) {
         // κ² is the product over the degrees; κ²·n·u times the length of P, at most √count of its largest point.
         let condition =
             (to + 1..=from).fold(1.0, |c, j| c / (1.0 - (to * (to + 1)) as f64 / (j * (j + 1)) as f64));
-        let length = high.iter().map(|p| p * p).sum::<f64>().sqrt();
+        let largest = high.iter().fold(f64::MIN_POSITIVE, |m: f64, p| m.max(p.abs()));
+        let length = largest * high.iter().map(|p| (p / largest).powi(2)).sum::<f64>().sqrt();
         let allowed = (4 * (from + 2)) as f64 * U * condition * length + f64::MIN_POSITIVE;
         let off = low.iter().zip(&out).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
         assert!(off <= allowed, "{from} to {to} over {V}: off {off:e}, allowed {allowed:e}");

@@ -116,6 +116,10 @@ pub fn floor(points: &[Q]) -> Q {
     (largest + integer(1)) * exact(1e-290) / exact(super::U)
 }
 
+fn fit(x: f64) -> f64 {
+    if x.abs() < 64.0 { x } else { x * 2_f64.powi(-40) }
+}
+
 impl Hunter {
     /// Barycentric coordinates: inside, on faces, at and near vertices, outside.
     pub fn barycentric<const V: usize>(&mut self) -> [f64; V] {
@@ -132,7 +136,8 @@ impl Hunter {
                 lambda.iter_mut().for_each(|l| *l = self.parameter() / V as f64);
                 lambda[V - 1] = last_barycentric(&lambda[..V - 1]);
             }
-            3 => lambda.iter_mut().for_each(|l| *l = self.number()),
+            // Below 2⁶, so that their powers stay in range at the highest degrees.
+            3 => lambda.iter_mut().for_each(|l| *l = fit(self.number())),
             _ => {
                 let mut left = 1.0;
                 for l in &mut lambda[..V - 1] {
