@@ -53,6 +53,7 @@ mod patch;
 mod patch_kernel;
 mod quotient;
 mod rational;
+mod scattered;
 mod simd;
 #[cfg(test)]
 mod tests;

@@ -7,19 +7,15 @@
 // As in `simd.rs`: plain loops over registers.
 #![allow(clippy::needless_range_loop)]
 
-use std::sync::atomic::{AtomicUsize, Ordering};
-
-use pulp::Scalar;
 use pulp::bytemuck::{cast_slice, cast_slice_mut};
 
-use super::blocks::store;
+use super::BatchPoint;
 use super::horner::ONE_SIDED;
 use super::nets::{Nets, ORDERS};
-use super::parallel::{CHUNK, each_chunk};
-use super::patch_kernel::{At, BASIS, BICUBIC, MAX_BASIS, QUOTIENTS, load_pairs};
-use super::quotient::{lane, largest_weight, refuse_pole, scale, settle, surface, suspicious, uncertainty};
-use super::simd::{Job, Lanes, dispatch, dispatch_in};
-use super::{BatchPoint, check_length};
+use super::patch_kernel::{At, BASIS, BICUBIC, MAX_BASIS, QUOTIENTS};
+use super::quotient::scale;
+use super::scattered::{self, Form, check_lengths, one_by_one, rational_one_by_one};
+use super::simd::Lanes;
 use crate::glam::{DVec2, DVec3, DVec4};
 use crate::{BernsteinError, MAX_DEGREE, TensorNet, basis, binomial};
 
@@ -93,39 +89,25 @@ impl<P: BatchPoint> PatchBatch<P> {
         out: [&mut [P]; K],
     ) -> Result<(), BernsteinError> {
         const { assert!(K == 1 || K == 3 || K == 6, "values; first; second derivatives") };
-        for out in &out {
-            check_length("out", parameters.len(), out.len())?;
-        }
-        let mut out = out.map(cast_slice_mut::<P, f64>);
-        if self.degrees.iter().any(|&d| d >= MAX_BASIS) {
-            self.one_by_one(parameters, K, |place, jet| {
-                for (out, p) in out.iter_mut().zip(jet) {
-                    out[P::DIMENSION * place..][..P::DIMENSION].copy_from_slice(cast_slice(&[*p]));
-                }
-            });
+        check_lengths(parameters, &out)?;
+        if self.has_no_kernel() {
+            let mut out = out;
+            one_by_one(parameters, &mut out, |at, jet| self.partials(at, jet));
             return Ok(());
         }
-        self.view(cast_slice(parameters)).plain(P::DIMENSION, &mut out)
+        self.view().plain(P::DIMENSION, cast_slice(parameters), &mut out.map(cast_slice_mut::<P, f64>))
     }
 
-    /// The first `kinds` partial derivatives at each parameter, given to `take` with its place.
-    fn one_by_one(&self, parameters: &[DVec2], kinds: usize, mut take: impl FnMut(usize, &[P])) {
-        let net = TensorNet::validated(&self.net, self.degrees);
-        let mut jet = [P::ZERO; 6];
-        for (place, uv) in parameters.iter().enumerate() {
-            net.partials(uv.x, uv.y, &mut jet[..kinds]);
-            take(place, &jet[..kinds]);
-        }
+    fn has_no_kernel(&self) -> bool {
+        self.degrees.iter().any(|&d| d >= MAX_BASIS)
     }
 
-    fn view<'a>(&'a self, parameters: &'a [f64]) -> View<'a> {
-        View {
-            net: cast_slice(&self.net),
-            degrees: self.degrees,
-            plain: &self.plain,
-            scaled: &self.scaled,
-            parameters,
-        }
+    fn partials(&self, at: DVec2, jet: &mut [P]) {
+        TensorNet::validated(&self.net, self.degrees).partials(at.x, at.y, jet);
+    }
+
+    fn view(&self) -> View<'_> {
+        View { net: cast_slice(&self.net), degrees: self.degrees, plain: &self.plain, scaled: &self.scaled }
     }
 }
 
@@ -145,192 +127,114 @@ impl PatchBatch<DVec4> {
         out: [&mut [DVec3]; K],
     ) -> Result<(), BernsteinError> {
         const { assert!(K == 1 || K == 3 || K == 6, "values; first; second derivatives") };
-        for out in &out {
-            check_length("out", parameters.len(), out.len())?;
-        }
+        check_lengths(parameters, &out)?;
         let mut out = out.map(cast_slice_mut::<DVec3, f64>);
-        let view = self.view(cast_slice(parameters));
-        if self.degrees.iter().any(|&d| d >= MAX_BASIS) {
-            let mut pole = usize::MAX;
-            self.one_by_one(parameters, K, |place, jet| {
-                let mut all = [[0.0; 4]; K];
-                all.iter_mut().zip(jet).for_each(|(to, p)| *to = p.to_array());
-                let points = surface(Scalar, &all);
-                for (out, point) in out.iter_mut().zip(points) {
-                    out[3 * place..3 * place + 3].copy_from_slice(&point);
-                }
-                if settle(all[0][3], view.bound(place), &mut out, place) {
-                    pole = pole.min(place);
-                }
-            });
-            return refuse_pole(pole);
+        if self.has_no_kernel() {
+            let form = Tensor::<BASIS>(self.view());
+            return rational_one_by_one(form, parameters, &mut out, |at, jet| self.partials(at, jet));
         }
-        view.rational(&mut out)
+        self.view().rational(cast_slice(parameters), &mut out)
     }
 }
 
-/// A patch and parameters as plain numbers, so that the kernels are compiled with this crate and once.
+/// A patch as plain numbers.
 #[derive(Clone, Copy)]
 pub(super) struct View<'a> {
     net: &'a [f64],
     pub(super) degrees: [usize; 2],
     pub(super) plain: &'a [Vec<f64>],
     pub(super) scaled: &'a [Vec<f64>],
-    /// u and v of each place.
-    parameters: &'a [f64],
 }
 
 impl View<'_> {
-    fn plain(&self, dimension: usize, out: &mut [&mut [f64]]) -> Result<(), BernsteinError> {
-        match out {
-            [a] => self.plain_in(dimension, [a]),
-            [a, b, c] => self.plain_in(dimension, [a, b, c]),
-            [a, b, c, d, e, f] => self.plain_in(dimension, [a, b, c, d, e, f]),
-            _ => Ok(()),
-        }
-    }
-
-    fn rational(&self, out: &mut [&mut [f64]]) -> Result<(), BernsteinError> {
-        match out {
-            [a] => self.rational_in([a]),
-            [a, b, c] => self.rational_in([a, b, c]),
-            [a, b, c, d, e, f] => self.rational_in([a, b, c, d, e, f]),
-            _ => Ok(()),
-        }
-    }
-
-    fn plain_in<const K: usize>(&self, dimension: usize, out: [&mut [f64]; K]) -> Result<(), BernsteinError> {
-        // Bicubic patches in space have kernels of their own, with unrolled loops.
-        let unrolled = dimension == 3 && self.degrees == [3, 3];
-        let by_quotients = self.degrees[0] + self.degrees[1] <= ONE_SIDED;
-        self.run(dimension, out, |chunk| {
-            if unrolled {
-                dispatch_in::<_, 3>(chunk.by::<false, BICUBIC>());
-            } else if by_quotients {
-                dispatch(dimension, chunk.by::<false, QUOTIENTS>());
-            } else {
-                dispatch(dimension, chunk.by::<false, BASIS>());
-            }
-        })
-    }
-
-    fn rational_in<const K: usize>(&self, out: [&mut [f64]; K]) -> Result<(), BernsteinError> {
-        let by_quotients = self.degrees[0] + self.degrees[1] <= ONE_SIDED;
-        self.run(3, out, |chunk| {
-            if by_quotients {
-                dispatch_in::<_, 4>(chunk.by::<true, QUOTIENTS>());
-            } else {
-                dispatch_in::<_, 4>(chunk.by::<true, BASIS>());
-            }
-        })
-    }
-
-    /// Cuts the parameters into chunks, for results of `width` numbers a point.
-    fn run<const K: usize>(
-        &self,
-        width: usize,
-        out: [&mut [f64]; K],
-        kernel: impl Fn(Chunk<'_, K>) + Send + Sync,
+    fn plain(
+        self,
+        dimension: usize,
+        parameters: &[f64],
+        out: &mut [&mut [f64]],
     ) -> Result<(), BernsteinError> {
-        let out = out.map(|out| out.chunks_mut(CHUNK * width));
-        let pole = AtomicUsize::new(usize::MAX);
-        each_chunk(self.parameters.chunks(2 * CHUNK).enumerate(), out, |(number, parameters), out| {
-            let patch = View { parameters, ..*self };
-            kernel(Chunk { patch, out, first: number * CHUNK, pole: &pole });
-        });
-        refuse_pole(pole.into_inner())
+        // Bicubic patches in space have kernels of their own, with unrolled loops.
+        if dimension == 3 && self.degrees == [3, 3] {
+            scattered::plain(Tensor::<BICUBIC>(self), dimension, parameters, out)
+        } else if self.degrees[0] + self.degrees[1] <= ONE_SIDED {
+            scattered::plain(Tensor::<QUOTIENTS>(self), dimension, parameters, out)
+        } else {
+            scattered::plain(Tensor::<BASIS>(self), dimension, parameters, out)
+        }
     }
 
-    /// The rounding error of the denominator at a place.
-    #[cold]
-    fn bound(&self, place: usize) -> f64 {
-        let [m, n] = self.degrees;
-        let mut rows = [[0.0; MAX_DEGREE + 1]; 2];
-        basis(self.parameters[2 * place], &mut rows[0][..=m]);
-        basis(self.parameters[2 * place + 1], &mut rows[1][..=n]);
-        uncertainty(m + n) * scale(self.net, &rows[0][..=m], &rows[1][..=n])
-    }
-}
-
-/// Some of the parameters.
-struct Chunk<'a, const K: usize> {
-    patch: View<'a>,
-    out: [&'a mut [f64]; K],
-    /// The place of the first parameter in the whole batch.
-    first: usize,
-    /// The first place of a pole.
-    pole: &'a AtomicUsize,
-}
-
-impl<'a, const K: usize> Chunk<'a, K> {
-    /// The job to be done with these parameters.
-    fn by<const RATIONAL: bool, const WAY: u8>(self) -> Scattered<'a, K, RATIONAL, WAY> {
-        Scattered(self)
+    fn rational(self, parameters: &[f64], out: &mut [&mut [f64]]) -> Result<(), BernsteinError> {
+        if self.degrees[0] + self.degrees[1] <= ONE_SIDED {
+            scattered::rational(Tensor::<QUOTIENTS>(self), parameters, out)
+        } else {
+            scattered::rational(Tensor::<BASIS>(self), parameters, out)
+        }
     }
 }
 
-struct Scattered<'a, const K: usize, const RATIONAL: bool, const WAY: u8>(Chunk<'a, K>);
+/// A patch, to be evaluated in one of the ways of `patch_kernel.rs`.
+#[derive(Clone, Copy)]
+struct Tensor<'a, const WAY: u8>(View<'a>);
 
-impl<const K: usize, const RATIONAL: bool, const WAY: u8> Job for Scattered<'_, K, RATIONAL, WAY> {
-    type Output = ();
+impl<const WAY: u8> Form for Tensor<'_, WAY> {
+    type At<S: Lanes> = At<S>;
+
+    fn net(&self) -> &[f64] {
+        self.0.net
+    }
+
+    fn degree(&self) -> usize {
+        self.0.degrees[0] + self.0.degrees[1]
+    }
 
     #[inline(always)]
-    fn run<S: Lanes, const D: usize>(self, simd: S) {
-        let Chunk { patch, mut out, first, pole } = self.0;
-        let [m, n] = patch.degrees;
-        let weight = if RATIONAL { uncertainty(m + n) * largest_weight(patch.net) } else { 0.0 };
-        let count = patch.parameters.len() / 2;
-        let mut place = 0;
-        while place < count {
-            let [u, v] = load_pairs(simd, patch.parameters, place);
-            let at = At::new(simd, u, v);
-            let mut jet = [[simd.splat_f64s(0.0); D]; K];
-            if WAY == BASIS {
-                for k in 0..K {
-                    jet[k] = at.by_basis(&patch, k);
-                }
-            } else {
-                jet[0] = at.partial::<D, WAY, 0, 0>(&patch);
-                // Written out: the compiler must see the orders to keep everything in registers.
-                if K >= 3 {
-                    jet[1] = at.partial::<D, WAY, 1, 0>(&patch);
-                    jet[2] = at.partial::<D, WAY, 0, 1>(&patch);
-                }
-                if K >= 6 {
-                    jet[3] = at.partial::<D, WAY, 2, 0>(&patch);
-                    jet[4] = at.partial::<D, WAY, 1, 1>(&patch);
-                    jet[5] = at.partial::<D, WAY, 0, 2>(&patch);
-                }
+    fn at<S: Lanes>(&self, simd: S) -> At<S> {
+        At::new(simd, simd.splat_f64s(0.0), simd.splat_f64s(0.0))
+    }
+
+    #[inline(always)]
+    fn move_to<S: Lanes>(&self, simd: S, at: &mut At<S>, u: S::f64s, v: S::f64s) {
+        *at = At::new(simd, u, v);
+    }
+
+    #[inline(always)]
+    fn jet<S: Lanes, const D: usize, const K: usize>(&self, simd: S, at: &At<S>) -> [[S::f64s; D]; K] {
+        let patch = &self.0;
+        let mut jet = [[simd.splat_f64s(0.0); D]; K];
+        if WAY == BASIS {
+            for k in 0..K {
+                jet[k] = at.by_basis(patch, k);
             }
-            if RATIONAL {
-                let mut homogeneous = [[simd.splat_f64s(0.0); 4]; K];
-                for k in 0..K {
-                    for c in 0..D {
-                        homogeneous[k][c] = jet[k][c];
-                    }
-                }
-                // Σ|Bᵢ Bⱼ wᵢⱼ| is at most (|1−u| + |u|)ᵐ (|1−v| + |v|)ⁿ times the largest weight.
-                let size = |s, t| simd.add_f64s(simd.abs_f64s(s), simd.abs_f64s(t));
-                let spread = simd.mul_f64s(simd.power(size(at.su, u), m), simd.power(size(at.sv, v), n));
-                let least = simd.mul_f64s(simd.splat_f64s(weight), spread);
-                let points = surface(simd, &homogeneous);
-                for k in 0..K {
-                    store(simd, out[k], place, points[k]);
-                }
-                if simd.any(suspicious(simd, homogeneous[0][3], &points, least)) {
-                    for l in 0..S::F64_LANES.min(count - place) {
-                        let denominator = lane::<S>(homogeneous[0][3], l);
-                        if settle(denominator, patch.bound(place + l), &mut out, place + l) {
-                            pole.fetch_min(first + place + l, Ordering::Relaxed);
-                        }
-                    }
-                }
-            } else {
-                for k in 0..K {
-                    store(simd, out[k], place, jet[k]);
-                }
-            }
-            place += S::F64_LANES;
+            return jet;
         }
+        jet[0] = at.partial::<D, WAY, 0, 0>(patch);
+        // Written out: the compiler must see the orders to keep everything in registers.
+        if K >= 3 {
+            jet[1] = at.partial::<D, WAY, 1, 0>(patch);
+            jet[2] = at.partial::<D, WAY, 0, 1>(patch);
+        }
+        if K >= 6 {
+            jet[3] = at.partial::<D, WAY, 2, 0>(patch);
+            jet[4] = at.partial::<D, WAY, 1, 1>(patch);
+            jet[5] = at.partial::<D, WAY, 0, 2>(patch);
+        }
+        jet
+    }
+
+    /// (|1−u| + |u|)ᵐ (|1−v| + |v|)ⁿ.
+    #[inline(always)]
+    fn spread<S: Lanes>(&self, simd: S, at: &At<S>) -> S::f64s {
+        let [m, n] = self.0.degrees;
+        let size = |s, t| simd.add_f64s(simd.abs_f64s(s), simd.abs_f64s(t));
+        simd.mul_f64s(simd.power(size(at.su, at.u), m), simd.power(size(at.sv, at.v), n))
+    }
+
+    #[cold]
+    fn scale(&self, at: DVec2) -> f64 {
+        let [m, n] = self.0.degrees;
+        let mut rows = [[0.0; MAX_DEGREE + 1]; 2];
+        basis(at.x, &mut rows[0][..=m]);
+        basis(at.y, &mut rows[1][..=n]);
+        scale(self.0.net, &rows[0][..=m], &rows[1][..=n])
     }
 }

@@ -6,18 +6,12 @@
 // As in `simd.rs`: plain loops over registers.
 #![allow(clippy::needless_range_loop)]
 
-use std::sync::atomic::{AtomicUsize, Ordering};
-
-use pulp::Scalar;
 use pulp::bytemuck::{cast_slice, cast_slice_mut};
 
-use super::blocks::store;
+use super::BatchPoint;
 use super::nets::ORDERS;
-use super::parallel::{CHUNK, each_chunk};
-use super::patch_kernel::load_pairs;
-use super::quotient::{lane, largest_weight, refuse_pole, settle, surface, suspicious, uncertainty};
-use super::simd::{Job, Lanes, dispatch, dispatch_in};
-use super::{BatchPoint, check_length};
+use super::scattered::{self, Form, check_lengths, one_by_one, rational_one_by_one};
+use super::simd::Lanes;
 use crate::glam::{DVec2, DVec3, DVec4};
 use crate::simplex::differentiate;
 use crate::{BernsteinError, TriangleNet, binomial, last_barycentric, multi_indices, simplex_basis};
@@ -80,33 +74,21 @@ impl<P: BatchPoint> TriangleBatch<P> {
         out: [&mut [P]; K],
     ) -> Result<(), BernsteinError> {
         const { assert!(K == 1 || K == 3 || K == 6, "values; first; second derivatives") };
-        for out in &out {
-            check_length("out", parameters.len(), out.len())?;
-        }
-        let mut out = out.map(cast_slice_mut::<P, f64>);
+        check_lengths(parameters, &out)?;
         if self.scaled.is_empty() {
-            self.one_by_one(parameters, K, |place, jet| {
-                for (out, p) in out.iter_mut().zip(jet) {
-                    out[P::DIMENSION * place..][..P::DIMENSION].copy_from_slice(cast_slice(&[*p]));
-                }
-            });
+            let mut out = out;
+            one_by_one(parameters, &mut out, |at, jet| self.partials(at, jet));
             return Ok(());
         }
-        self.view(cast_slice(parameters)).plain(P::DIMENSION, &mut out)
+        self.view().plain(P::DIMENSION, cast_slice(parameters), &mut out.map(cast_slice_mut::<P, f64>))
     }
 
-    /// The first `kinds` partial derivatives at each parameter, given to `take` with its place.
-    fn one_by_one(&self, parameters: &[DVec2], kinds: usize, mut take: impl FnMut(usize, &[P])) {
-        let net = TriangleNet::validated(&self.net, self.degree);
-        let mut jet = [P::ZERO; 6];
-        for (place, &at) in parameters.iter().enumerate() {
-            net.partials(barycentric(at), &mut jet[..kinds]);
-            take(place, &jet[..kinds]);
-        }
+    fn partials(&self, at: DVec2, jet: &mut [P]) {
+        TriangleNet::validated(&self.net, self.degree).partials(barycentric(at), jet);
     }
 
-    fn view<'a>(&'a self, parameters: &'a [f64]) -> View<'a> {
-        View { net: cast_slice(&self.net), degree: self.degree, scaled: &self.scaled, parameters }
+    fn view(&self) -> View<'_> {
+        View { net: cast_slice(&self.net), degree: self.degree, scaled: &self.scaled }
     }
 }
 
@@ -125,26 +107,12 @@ impl TriangleBatch<DVec4> {
         out: [&mut [DVec3]; K],
     ) -> Result<(), BernsteinError> {
         const { assert!(K == 1 || K == 3 || K == 6, "values; first; second derivatives") };
-        for out in &out {
-            check_length("out", parameters.len(), out.len())?;
-        }
+        check_lengths(parameters, &out)?;
         let mut out = out.map(cast_slice_mut::<DVec3, f64>);
-        let view = self.view(cast_slice(parameters));
         if self.scaled.is_empty() {
-            let mut pole = usize::MAX;
-            self.one_by_one(parameters, K, |place, jet| {
-                let mut all = [[0.0; 4]; K];
-                all.iter_mut().zip(jet).for_each(|(to, p)| *to = p.to_array());
-                for (out, point) in out.iter_mut().zip(surface(Scalar, &all)) {
-                    out[3 * place..3 * place + 3].copy_from_slice(&point);
-                }
-                if settle(all[0][3], view.bound(place), &mut out, place) {
-                    pole = pole.min(place);
-                }
-            });
-            return refuse_pole(pole);
+            return rational_one_by_one(self.view(), parameters, &mut out, |at, jet| self.partials(at, jet));
         }
-        view.rational(&mut out)
+        self.view().rational(cast_slice(parameters), &mut out)
     }
 }
 
@@ -167,143 +135,87 @@ fn barycentric(at: DVec2) -> [f64; 3] {
     [at.x, at.y, last_barycentric(&at.to_array())]
 }
 
-/// A triangle and parameters as plain numbers, so that the kernels are compiled with this crate and once.
 #[derive(Clone, Copy)]
 struct View<'a> {
     net: &'a [f64],
     degree: usize,
     scaled: &'a [Vec<f64>],
-    /// λ₁ and λ₂ of each place.
-    parameters: &'a [f64],
 }
 
 impl View<'_> {
-    fn plain(&self, dimension: usize, out: &mut [&mut [f64]]) -> Result<(), BernsteinError> {
-        match out {
-            [a] => self.plain_in(dimension, [a]),
-            [a, b, c] => self.plain_in(dimension, [a, b, c]),
-            [a, b, c, d, e, f] => self.plain_in(dimension, [a, b, c, d, e, f]),
-            _ => Ok(()),
-        }
-    }
-
-    fn plain_in<const K: usize>(&self, dimension: usize, out: [&mut [f64]; K]) -> Result<(), BernsteinError> {
-        self.run(dimension, out, |chunk| dispatch(dimension, Scattered::<K, false>(chunk)))
-    }
-
-    fn rational(&self, out: &mut [&mut [f64]]) -> Result<(), BernsteinError> {
-        match out {
-            [a] => self.rational_in([a]),
-            [a, b, c] => self.rational_in([a, b, c]),
-            [a, b, c, d, e, f] => self.rational_in([a, b, c, d, e, f]),
-            _ => Ok(()),
-        }
-    }
-
-    fn rational_in<const K: usize>(&self, out: [&mut [f64]; K]) -> Result<(), BernsteinError> {
-        self.run(3, out, |chunk| dispatch_in::<_, 4>(Scattered::<K, true>(chunk)))
-    }
-
-    /// Cuts the parameters into chunks, for results of `width` numbers a point.
-    fn run<const K: usize>(
-        &self,
-        width: usize,
-        out: [&mut [f64]; K],
-        kernel: impl Fn(Chunk<'_, K>) + Send + Sync,
+    fn plain(
+        self,
+        dimension: usize,
+        parameters: &[f64],
+        out: &mut [&mut [f64]],
     ) -> Result<(), BernsteinError> {
-        let out = out.map(|out| out.chunks_mut(CHUNK * width));
-        let pole = AtomicUsize::new(usize::MAX);
-        each_chunk(self.parameters.chunks(2 * CHUNK).enumerate(), out, |(number, parameters), out| {
-            let triangle = View { parameters, ..*self };
-            kernel(Chunk { triangle, out, first: number * CHUNK, pole: &pole });
-        });
-        refuse_pole(pole.into_inner())
+        scattered::plain(self, dimension, parameters, out)
     }
 
-    /// The rounding error of the denominator at a place.
+    fn rational(self, parameters: &[f64], out: &mut [&mut [f64]]) -> Result<(), BernsteinError> {
+        scattered::rational(self, parameters, out)
+    }
+}
+
+impl Form for View<'_> {
+    /// The powers of the three barycentric coordinates.
+    type At<S: Lanes> = [[S::f64s; MOST + 1]; 3];
+
+    fn net(&self) -> &[f64] {
+        self.net
+    }
+
+    fn degree(&self) -> usize {
+        self.degree
+    }
+
+    #[inline(always)]
+    fn at<S: Lanes>(&self, simd: S) -> Self::At<S> {
+        [[simd.splat_f64s(1.0); MOST + 1]; 3]
+    }
+
+    #[inline(always)]
+    fn move_to<S: Lanes>(&self, simd: S, powers: &mut Self::At<S>, u: S::f64s, v: S::f64s) {
+        let lambda = [u, v, last(simd, u, v)];
+        for a in 0..3 {
+            let mut power = lambda[a];
+            for i in 1..=self.degree.max(1) {
+                powers[a][i] = power;
+                power = simd.mul_f64s(power, lambda[a]);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn jet<S: Lanes, const D: usize, const K: usize>(
+        &self,
+        simd: S,
+        powers: &Self::At<S>,
+    ) -> [[S::f64s; D]; K] {
+        let mut jet = [[simd.splat_f64s(0.0); D]; K];
+        for k in 0..K {
+            let [a, b] = ORDERS[k];
+            if let Some(lower) = self.degree.checked_sub(a + b) {
+                jet[k] = sum(simd, powers, lower, self.scaled[k].as_chunks().0);
+            }
+        }
+        jet
+    }
+
+    /// (|λ₁| + |λ₂| + |λ₃|)ⁿ.
+    #[inline(always)]
+    fn spread<S: Lanes>(&self, simd: S, powers: &Self::At<S>) -> S::f64s {
+        let size = |a: usize| simd.abs_f64s(powers[a][1]);
+        simd.power(simd.add_f64s(simd.add_f64s(size(0), size(1)), size(2)), self.degree)
+    }
+
     #[cold]
-    fn bound(&self, place: usize) -> f64 {
-        let at = DVec2::new(self.parameters[2 * place], self.parameters[2 * place + 1]);
+    fn scale(&self, at: DVec2) -> f64 {
         let mut basis = vec![0.0; self.net.len() / 4];
         if simplex_basis(self.degree, barycentric(at), &mut basis).is_err() {
             return f64::INFINITY; // never: the net was checked
         }
-        let scale: f64 = basis.iter().zip(self.net.chunks_exact(4)).map(|(b, p)| (b * p[3]).abs()).sum();
-        uncertainty(self.degree) * scale
-    }
-}
-
-/// Some of the parameters.
-struct Chunk<'a, const K: usize> {
-    triangle: View<'a>,
-    out: [&'a mut [f64]; K],
-    /// The place of the first parameter in the whole batch.
-    first: usize,
-    /// The first place of a pole.
-    pole: &'a AtomicUsize,
-}
-
-struct Scattered<'a, const K: usize, const RATIONAL: bool>(Chunk<'a, K>);
-
-impl<const K: usize, const RATIONAL: bool> Job for Scattered<'_, K, RATIONAL> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<S: Lanes, const D: usize>(self, simd: S) {
-        let Chunk { triangle, mut out, first, pole } = self.0;
-        let degree = triangle.degree;
-        let weight = if RATIONAL { uncertainty(degree) * largest_weight(triangle.net) } else { 0.0 };
-        let count = triangle.parameters.len() / 2;
-        let mut powers = [[simd.splat_f64s(1.0); MOST + 1]; 3];
-        let mut place = 0;
-        while place < count {
-            let [u, v] = load_pairs(simd, triangle.parameters, place);
-            let lambda = [u, v, last(simd, u, v)];
-            for (row, x) in powers.iter_mut().zip(lambda) {
-                let mut power = x;
-                for i in 1..=degree {
-                    row[i] = power;
-                    power = simd.mul_f64s(power, x);
-                }
-            }
-            let mut jet = [[simd.splat_f64s(0.0); D]; K];
-            for k in 0..K {
-                let [a, b] = ORDERS[k];
-                if let Some(lower) = degree.checked_sub(a + b) {
-                    jet[k] = sum(simd, &powers, lower, triangle.scaled[k].as_chunks().0);
-                }
-            }
-            if !RATIONAL {
-                for k in 0..K {
-                    store(simd, out[k], place, jet[k]);
-                }
-                place += S::F64_LANES;
-                continue;
-            }
-            let mut homogeneous = [[simd.splat_f64s(0.0); 4]; K];
-            for k in 0..K {
-                for c in 0..D {
-                    homogeneous[k][c] = jet[k][c];
-                }
-            }
-            let points = surface(simd, &homogeneous);
-            for k in 0..K {
-                store(simd, out[k], place, points[k]);
-            }
-            // Σ|B w| is at most (|λ₁| + |λ₂| + |λ₃|)ⁿ times the largest weight.
-            let size = simd.add_f64s(simd.abs_f64s(lambda[0]), simd.abs_f64s(lambda[1]));
-            let size = simd.add_f64s(size, simd.abs_f64s(lambda[2]));
-            let least = simd.mul_f64s(simd.splat_f64s(weight), simd.power(size, degree));
-            if simd.any(suspicious(simd, homogeneous[0][3], &points, least)) {
-                for l in 0..S::F64_LANES.min(count - place) {
-                    let denominator = lane::<S>(homogeneous[0][3], l);
-                    if settle(denominator, triangle.bound(place + l), &mut out, place + l) {
-                        pole.fetch_min(first + place + l, Ordering::Relaxed);
-                    }
-                }
-            }
-            place += S::F64_LANES;
-        }
+        basis.iter().zip(self.net.chunks_exact(4)).map(|(b, p)| (b * p[3]).abs()).sum()
     }
 }
 
