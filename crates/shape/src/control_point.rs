@@ -5,114 +5,118 @@ use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
 use casteljau_geom::{BoundingBox, GeomError, extended_quotient_partials, partial_count, rounding_bound};
 
 use crate::ShapeError;
-use crate::error::{check_points, check_weight};
+use crate::error::check_points;
 
 /// What the control points of a shape may be: `DVec3` for polynomial shapes, `DVec4` = (w·x, w·y, w·z, w) for
 /// rational ones.
 ///
 /// Everything that is linear in the control points is written once for both; the rational ones are divided by
 /// their weight at the end, by the quotient rule. No other type can be one.
-pub trait ControlPoint: Point + private::Projective {}
+pub trait ControlPoint: Point + private::Sealed {
+    /// Whether there is a weight to divide by.
+    const RATIONAL: bool;
 
-impl ControlPoint for DVec3 {}
-impl ControlPoint for DVec4 {}
+    /// The numbers in memory.
+    fn components(&self) -> &[f64];
+
+    /// `(w·x, w·y, w·z, w)`.
+    fn homogeneous(self) -> DVec4;
+
+    /// The point in space; `None` at infinity.
+    fn euclidean(self) -> Option<DVec3>;
+
+    /// Derivatives of the shape in N parameters, from the kernel that fills in those of its net; what leaves the
+    /// range of numbers is infinite or NaN.
+    ///
+    /// `uncertainty` bounds the error of the weight that it is given.
+    ///
+    /// # Errors
+    /// [`GeomError::Pole`] where the weight vanishes within that bound.
+    fn project<const N: usize>(
+        out: &mut [DVec3],
+        kernel: impl FnOnce(&mut [Self]),
+        uncertainty: impl FnOnce(f64) -> f64,
+    ) -> Result<(), GeomError>;
+}
+
+mod private {
+    /// Keeps the kinds of control points to those of this crate.
+    pub trait Sealed {}
+
+    impl Sealed for casteljau_geom::glam::DVec3 {}
+    impl Sealed for casteljau_geom::glam::DVec4 {}
+}
 
 /// Derivatives of a rational shape are kept on the stack while there are at most so many: a surface's up to
 /// order 7.
 const ON_STACK: usize = partial_count::<2>(7);
 
-pub(crate) mod private {
-    use super::*;
+impl ControlPoint for DVec3 {
+    const RATIONAL: bool = false;
 
-    /// A point of projective space, seen from the shape that it controls.
-    pub trait Projective: Point {
-        /// Whether there is a weight to divide by.
-        const RATIONAL: bool;
-
-        /// The numbers in memory.
-        fn components(&self) -> &[f64];
-
-        /// `(w·x, w·y, w·z, w)`.
-        fn homogeneous(self) -> DVec4;
-
-        /// The point in space; `None` at infinity.
-        fn euclidean(self) -> Option<DVec3>;
-
-        /// Derivatives of the shape in N parameters, from the kernel that fills in those of its net; what leaves the
-        /// range of numbers is infinite or NaN.
-        ///
-        /// `uncertainty` bounds the error of the weight that it is given.
-        fn project<const N: usize>(
-            out: &mut [DVec3],
-            kernel: impl FnOnce(&mut [Self]),
-            uncertainty: impl FnOnce(f64) -> f64,
-        ) -> Result<(), GeomError>;
+    fn components(&self) -> &[f64] {
+        self.as_ref()
     }
 
-    impl Projective for DVec3 {
-        const RATIONAL: bool = false;
-
-        fn components(&self) -> &[f64] {
-            self.as_ref()
-        }
-
-        fn homogeneous(self) -> DVec4 {
-            self.extend(1.0)
-        }
-
-        fn euclidean(self) -> Option<DVec3> {
-            Some(self)
-        }
-
-        fn project<const N: usize>(
-            out: &mut [DVec3],
-            kernel: impl FnOnce(&mut [Self]),
-            _: impl FnOnce(f64) -> f64,
-        ) -> Result<(), GeomError> {
-            kernel(out);
-            Ok(())
-        }
+    fn homogeneous(self) -> DVec4 {
+        self.extend(1.0)
     }
 
-    impl Projective for DVec4 {
-        const RATIONAL: bool = true;
+    fn euclidean(self) -> Option<DVec3> {
+        Some(self)
+    }
 
-        fn components(&self) -> &[f64] {
-            self.as_ref()
-        }
+    fn project<const N: usize>(
+        out: &mut [DVec3],
+        kernel: impl FnOnce(&mut [Self]),
+        _: impl FnOnce(f64) -> f64,
+    ) -> Result<(), GeomError> {
+        kernel(out);
+        Ok(())
+    }
+}
 
-        fn homogeneous(self) -> DVec4 {
-            self
-        }
+impl ControlPoint for DVec4 {
+    const RATIONAL: bool = true;
 
-        fn euclidean(self) -> Option<DVec3> {
-            let p = self.xyz() / self.w;
-            p.is_finite().then_some(p)
-        }
+    fn components(&self) -> &[f64] {
+        self.as_ref()
+    }
 
-        fn project<const N: usize>(
-            out: &mut [DVec3],
-            kernel: impl FnOnce(&mut [Self]),
-            uncertainty: impl FnOnce(f64) -> f64,
-        ) -> Result<(), GeomError> {
-            let mut stack = [DVec4::ZERO; ON_STACK];
-            let mut heap = Vec::new();
-            let net = match stack.get_mut(..out.len()) {
-                Some(net) => net,
-                None => {
-                    heap.resize(out.len(), DVec4::ZERO);
-                    &mut heap[..]
-                }
-            };
-            kernel(net);
-            let Some(value) = net.first() else { return Ok(()) };
-            extended_quotient_partials::<N>(net, uncertainty(value.w), out)
-        }
+    fn homogeneous(self) -> DVec4 {
+        self
+    }
+
+    fn euclidean(self) -> Option<DVec3> {
+        let p = self.xyz() / self.w;
+        p.is_finite().then_some(p)
+    }
+
+    fn project<const N: usize>(
+        out: &mut [DVec3],
+        kernel: impl FnOnce(&mut [Self]),
+        uncertainty: impl FnOnce(f64) -> f64,
+    ) -> Result<(), GeomError> {
+        let mut stack = [DVec4::ZERO; ON_STACK];
+        let mut heap = Vec::new();
+        let net = match stack.get_mut(..out.len()) {
+            Some(net) => net,
+            None => {
+                heap.resize(out.len(), DVec4::ZERO);
+                &mut heap[..]
+            }
+        };
+        kernel(net);
+        let Some(value) = net.first() else { return Ok(()) };
+        extended_quotient_partials::<N>(net, uncertainty(value.w), out)
     }
 }
 
 /// Homogeneous control points from Euclidean ones with their weights; one of weight 0 contributes nothing.
-pub(crate) fn lifted(points: &[DVec3], weights: &[f64]) -> Result<Vec<DVec4>, ShapeError> {
+///
+/// # Errors
+/// [`ShapeError::WeightCount`], [`ShapeError::Coordinate`].
+pub fn lifted(points: &[DVec3], weights: &[f64]) -> Result<Vec<DVec4>, ShapeError> {
     if points.len() != weights.len() {
         return Err(ShapeError::WeightCount { needed: points.len(), given: weights.len() });
     }
@@ -125,27 +129,35 @@ pub(crate) fn lifted(points: &[DVec3], weights: &[f64]) -> Result<Vec<DVec4>, Sh
     Ok(points.iter().zip(weights).map(|(&p, &w)| (p * w).extend(w)).collect())
 }
 
-/// Homogeneous control points, checked.
-pub(crate) fn checked(points: Vec<DVec4>) -> Result<Vec<DVec4>, ShapeError> {
+/// The control points of one shape, if every coordinate is finite and in range and not all weights are zero.
+///
+/// # Errors
+/// [`ShapeError::Coordinate`], [`ShapeError::NoWeight`].
+pub fn checked<P: ControlPoint>(points: Vec<P>) -> Result<Vec<P>, ShapeError> {
     check_points(&points)?;
-    check_weight(&points)?;
+    if P::RATIONAL && points.iter().all(|p| p.homogeneous().w == 0.0) {
+        return Err(ShapeError::NoWeight { control_points: points.len() });
+    }
     Ok(points)
 }
 
 /// The largest weight in absolute value.
-pub(crate) fn largest_weight<P: ControlPoint>(points: &[P]) -> f64 {
+#[must_use]
+pub fn largest_weight<P: ControlPoint>(points: &[P]) -> f64 {
     points.iter().map(|p| p.homogeneous().w.abs()).fold(0.0, f64::max)
 }
 
 /// Whether all weights are positive, or all are negative: then the shape lies in the hull of its control
 /// points.
-pub(crate) fn has_hull<P: ControlPoint>(points: &[P]) -> bool {
+#[must_use]
+pub fn has_hull<P: ControlPoint>(points: &[P]) -> bool {
     let sign = points.first().map_or(1.0, |p| p.homogeneous().w.signum());
     points.iter().all(|p| p.homogeneous().w * sign > 0.0)
 }
 
 /// The box around the control points in space; `None` unless [`has_hull`], or where a quotient overflows.
-pub(crate) fn hull_box<P: ControlPoint>(points: &[P]) -> Option<BoundingBox> {
+#[must_use]
+pub fn hull_box<P: ControlPoint>(points: &[P]) -> Option<BoundingBox> {
     if !has_hull(points) {
         return None;
     }
@@ -157,11 +169,10 @@ pub(crate) fn hull_box<P: ControlPoint>(points: &[P]) -> Option<BoundingBox> {
 /// With N/w and N′/w′, both seen from a point c, it is `|(N−N′) − (N/w)(w−w′)|/|w′| ≤ (δ_N + R δ_w)/min w′`, R being
 /// the largest distance of a control point of the first shape from c. `degree` is the total one, for an allowance
 /// for the rounding of the second net.
-pub(crate) fn distance_bound<P: ControlPoint>(
-    points: &[P],
-    nearby: &[P],
-    degree: usize,
-) -> Result<f64, ShapeError> {
+///
+/// # Errors
+/// [`ShapeError::Unbounded`] unless the weights of both have one sign.
+pub fn distance_bound<P: ControlPoint>(points: &[P], nearby: &[P], degree: usize) -> Result<f64, ShapeError> {
     let (Some(bounds), true) = (hull_box(points), has_hull(nearby)) else {
         return Err(ShapeError::Unbounded);
     };

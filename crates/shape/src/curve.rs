@@ -4,8 +4,8 @@ use casteljau_bernstein::{MAX_DEGREE, basis_barycentric, derivatives, value};
 use casteljau_geom::glam::{DVec3, DVec4};
 use casteljau_geom::{BoundingBox, CurveJet, Interval, rounding_bound};
 
-use crate::control_point::{checked, hull_box, largest_weight, lifted, private::Projective};
-use crate::error::{check_degree, check_points};
+use crate::control_point::{checked, hull_box, largest_weight, lifted};
+use crate::error::check_degree;
 use crate::{ControlPoint, Parameters, ParametricCurve, ShapeError};
 
 /// A Bézier curve over an interval `[a, b]`, `C(t) = Σ Bᵢⁿ(s) Pᵢ` with `s = (t−a)/(b−a)`.
@@ -43,6 +43,24 @@ impl<P: ControlPoint> BezierCurve<P> {
     pub(crate) fn checked(interval: Interval, control_points: Vec<P>) -> Self {
         debug_assert!(!control_points.is_empty());
         Self { interval, control_points }
+    }
+
+    /// The curve over an interval with the given control points, polynomial or rational as they are.
+    ///
+    /// ```
+    /// use casteljau_shape::{BezierCurve, geom::{Interval, glam::DVec4}};
+    /// let half = BezierCurve::from_net(Interval::UNIT, [DVec4::W, DVec4::new(2.0, 0.0, 0.0, 2.0)])?;
+    /// assert_eq!(half.point(0.5)?.x, 2.0 / 3.0);
+    /// # Ok::<(), casteljau_shape::ShapeError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ShapeError::NoControlPoints`], [`ShapeError::Degree`], [`ShapeError::Coordinate`],
+    /// [`ShapeError::NoWeight`].
+    pub fn from_net(interval: Interval, control_points: impl Into<Vec<P>>) -> Result<Self, ShapeError> {
+        let control_points = control_points.into();
+        check_count(control_points.len())?;
+        Ok(Self::checked(interval, checked(control_points)?))
     }
 
     /// Degree n.
@@ -133,10 +151,7 @@ impl Curve {
     /// # Errors
     /// [`ShapeError::NoControlPoints`], [`ShapeError::Degree`], [`ShapeError::Coordinate`].
     pub fn new(control_points: impl Into<Vec<DVec3>>) -> Result<Self, ShapeError> {
-        let control_points = control_points.into();
-        check_count(control_points.len())?;
-        check_points(&control_points)?;
-        Ok(Self::checked(Interval::UNIT, control_points))
+        Self::from_net(Interval::UNIT, control_points)
     }
 
     /// Point `C(t) = Σ Bᵢⁿ(s) Pᵢ`, by nested multiplication.
@@ -214,9 +229,7 @@ impl RationalCurve {
     /// [`ShapeError::NoControlPoints`], [`ShapeError::Degree`], [`ShapeError::NoWeight`],
     /// [`ShapeError::Coordinate`].
     pub fn from_homogeneous(control_points: impl Into<Vec<DVec4>>) -> Result<Self, ShapeError> {
-        let control_points = control_points.into();
-        check_count(control_points.len())?;
-        Ok(Self::checked(Interval::UNIT, checked(control_points)?))
+        Self::from_net(Interval::UNIT, control_points)
     }
 
     /// The first control point, `C(a)`; `None` where it lies at infinity.

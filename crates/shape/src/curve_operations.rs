@@ -4,8 +4,8 @@ use casteljau_bernstein::{BernsteinError, MAX_DEGREE, elevate, reduce, restrict,
 use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
 use casteljau_geom::{Interval, UNIT_ROUNDOFF};
 
-use crate::control_point::distance_bound;
-use crate::error::{check_points, check_weight};
+use crate::control_point::{checked, distance_bound};
+use crate::error::check_points;
 use crate::{BezierCurve, ControlPoint, RationalCurve, ShapeError};
 
 impl<P: ControlPoint> BezierCurve<P> {
@@ -139,9 +139,7 @@ impl RationalCurve {
             *p *= power;
             power *= c;
         }
-        check_points(&points)?;
-        check_weight(&points)?;
-        Ok(Self::checked(self.interval(), points))
+        Ok(Self::checked(self.interval(), checked(points)?))
     }
 
     /// The same curve in standard form, with first and last weight 1.

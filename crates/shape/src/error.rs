@@ -2,7 +2,7 @@
 
 use casteljau_bernstein::{BernsteinError, MAX_DEGREE};
 use casteljau_geom::GeomError;
-use casteljau_geom::glam::{DVec3, DVec4};
+use casteljau_geom::glam::DVec3;
 use thiserror::Error;
 
 use crate::{ControlPoint, Parameters};
@@ -365,13 +365,17 @@ pub enum ShapeError {
 
 impl ShapeError {
     /// The answer at these parameters leaves the range of numbers.
-    pub(crate) fn overflow(at: Parameters, denominator: f64) -> Self {
+    #[must_use]
+    pub fn overflow(at: Parameters, denominator: f64) -> Self {
         Self::Evaluation { at, source: GeomError::Overflow { denominator } }
     }
 }
 
 /// Every coordinate finite and in range.
-pub(crate) fn check_points<P: ControlPoint>(points: &[P]) -> Result<(), ShapeError> {
+///
+/// # Errors
+/// [`ShapeError::Coordinate`].
+pub fn check_points<P: ControlPoint>(points: &[P]) -> Result<(), ShapeError> {
     for (place, p) in points.iter().enumerate() {
         for (axis, &value) in p.components().iter().enumerate() {
             if value.is_nan() || value.abs() > LARGEST_COORDINATE {
@@ -382,15 +386,10 @@ pub(crate) fn check_points<P: ControlPoint>(points: &[P]) -> Result<(), ShapeErr
     Ok(())
 }
 
-/// A denominator that is not zero everywhere.
-pub(crate) fn check_weight(points: &[DVec4]) -> Result<(), ShapeError> {
-    if points.iter().all(|p| p.w == 0.0) {
-        return Err(ShapeError::NoWeight { control_points: points.len() });
-    }
-    Ok(())
-}
-
 /// The degree within the kernels' range.
-pub(crate) fn check_degree(degree: usize) -> Result<(), ShapeError> {
+///
+/// # Errors
+/// [`ShapeError::Degree`].
+pub fn check_degree(degree: usize) -> Result<(), ShapeError> {
     if degree > MAX_DEGREE { Err(ShapeError::Degree { degree, limit: MAX_DEGREE }) } else { Ok(()) }
 }

@@ -56,6 +56,12 @@ mod tight_box;
 mod triangle;
 mod triangle_operations;
 
+/// What shapes of every kind check their control points with, and bound themselves by.
+pub mod control_net {
+    pub use crate::control_point::{checked, distance_bound, has_hull, hull_box, largest_weight, lifted};
+    pub use crate::error::{check_degree, check_points};
+}
+
 pub use area::MeasuredArea;
 pub use closest::{
     CurveProjector, LocalMinima, LocalMinimum, LocalProjection, PatchProjector, Projection, TriangleProjector,

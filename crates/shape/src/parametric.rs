@@ -15,14 +15,20 @@ pub enum Parameters {
     Curve(f64),
     /// (u, v) on a patch, (λ₁, λ₂) on a triangle.
     Surface([f64; 2]),
+    /// (u, v, w) in a hexahedron, (λ₁, λ₂, λ₃) in a tetrahedron, (λ₁, λ₂, w) in a wedge.
+    Solid([f64; 3]),
 }
 
 impl Parameters {
     /// The parameters, unless one of them is not finite.
-    pub(crate) fn finite(self) -> Result<Self, ShapeError> {
+    ///
+    /// # Errors
+    /// [`ShapeError::Parameter`] with the first one that is not.
+    pub fn finite(self) -> Result<Self, ShapeError> {
         let values = match self {
-            Self::Curve(t) => [t, 0.0],
-            Self::Surface(uv) => uv,
+            Self::Curve(t) => [t, 0.0, 0.0],
+            Self::Surface([u, v]) => [u, v, 0.0],
+            Self::Solid(uvw) => uvw,
         };
         match values.into_iter().find(|x| !x.is_finite()) {
             Some(value) => Err(ShapeError::Parameter { value }),
@@ -36,6 +42,7 @@ impl fmt::Display for Parameters {
         match self {
             Self::Curve(t) => write!(f, "t = {t}"),
             Self::Surface([u, v]) => write!(f, "({u}, {v})"),
+            Self::Solid([u, v, w]) => write!(f, "({u}, {v}, {w})"),
         }
     }
 }

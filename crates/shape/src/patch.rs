@@ -5,7 +5,7 @@ use casteljau_geom::glam::{DVec3, DVec4};
 use casteljau_geom::{BoundingBox, Interval, SurfaceJet, multi_indices, rounding_bound};
 
 use crate::control_point::{checked, hull_box, largest_weight, lifted};
-use crate::error::{check_degree, check_points};
+use crate::error::check_degree;
 use crate::{ControlPoint, Parameters, ParametricSurface, ShapeError, SurfaceDomain};
 
 /// A tensor-product Bézier patch over a rectangle `[a, b] × [c, d]`, `S(u,v) = Σᵢ Σⱼ Bᵢᵐ(x) Bⱼⁿ(y) Pᵢⱼ` with
@@ -35,6 +35,20 @@ impl<P: ControlPoint> BezierPatch<P> {
     pub(crate) fn checked(intervals: [Interval; 2], degrees: [usize; 2], control_points: Vec<P>) -> Self {
         debug_assert_eq!(control_points.len(), (degrees[0] + 1) * (degrees[1] + 1));
         Self { intervals, degrees, control_points }
+    }
+
+    /// The patch over a rectangle with the given control points, j fastest, polynomial or rational as they are.
+    ///
+    /// # Errors
+    /// [`ShapeError::Degree`], [`ShapeError::NetSize`], [`ShapeError::Coordinate`], [`ShapeError::NoWeight`].
+    pub fn from_net(
+        intervals: [Interval; 2],
+        degrees: [usize; 2],
+        control_points: impl Into<Vec<P>>,
+    ) -> Result<Self, ShapeError> {
+        let control_points = control_points.into();
+        check_net(degrees, control_points.len())?;
+        Ok(Self::checked(intervals, degrees, checked(control_points)?))
     }
 
     /// Degrees m with u and n with v.
@@ -140,10 +154,7 @@ impl Patch {
     /// # Errors
     /// [`ShapeError::Degree`], [`ShapeError::NetSize`], [`ShapeError::Coordinate`].
     pub fn new(degrees: [usize; 2], control_points: impl Into<Vec<DVec3>>) -> Result<Self, ShapeError> {
-        let control_points = control_points.into();
-        check_net(degrees, control_points.len())?;
-        check_points(&control_points)?;
-        Ok(Self::checked([Interval::UNIT; 2], degrees, control_points))
+        Self::from_net([Interval::UNIT; 2], degrees, control_points)
     }
 
     /// Point `S(u,v)`; parameters outside the rectangle continue the polynomial.
@@ -210,9 +221,7 @@ impl RationalPatch {
         degrees: [usize; 2],
         control_points: impl Into<Vec<DVec4>>,
     ) -> Result<Self, ShapeError> {
-        let control_points = control_points.into();
-        check_net(degrees, control_points.len())?;
-        Ok(Self::checked([Interval::UNIT; 2], degrees, checked(control_points)?))
+        Self::from_net([Interval::UNIT; 2], degrees, control_points)
     }
 
     /// Weights, in the order of the control points.

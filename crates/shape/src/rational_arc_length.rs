@@ -9,9 +9,9 @@ use casteljau_geom::UNIT_ROUNDOFF;
 use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
 
 use crate::arc_length::{Integral, Stretch, check_accuracy, verdict};
-use crate::control_point::{has_hull, hull_box, private::Projective};
+use crate::control_point::{has_hull, hull_box};
 use crate::quadrature::gauss;
-use crate::{RationalCurve, ShapeError};
+use crate::{ControlPoint, RationalCurve, ShapeError};
 
 /// Pieces of this share of the interval are points.
 const POINT: f64 = 1e-18;

@@ -5,7 +5,7 @@ use casteljau_geom::glam::{DVec3, DVec4};
 use casteljau_geom::{BoundingBox, SurfaceJet, rounding_bound};
 
 use crate::control_point::{checked, hull_box, largest_weight, lifted};
-use crate::error::{check_degree, check_points};
+use crate::error::check_degree;
 use crate::{ControlPoint, Parameters, ParametricSurface, ShapeError, SurfaceDomain};
 
 /// A Bézier triangle, `S(λ) = Σ n!/(i!j!k!) λ₁ⁱ λ₂ʲ λ₃ᵏ Pᵢⱼₖ` over `i + j + k = n`.
@@ -42,6 +42,17 @@ impl<P: ControlPoint> BezierTriangle<P> {
     pub(crate) fn checked(degree: usize, control_points: Vec<P>) -> Self {
         debug_assert_eq!(control_points.len(), simplex_count::<3>(degree));
         Self { degree, control_points }
+    }
+
+    /// The triangle of degree n with the given control points, polynomial or rational as they are.
+    ///
+    /// # Errors
+    /// [`ShapeError::Degree`], [`ShapeError::TriangleSize`], [`ShapeError::Coordinate`],
+    /// [`ShapeError::NoWeight`].
+    pub fn from_net(degree: usize, control_points: impl Into<Vec<P>>) -> Result<Self, ShapeError> {
+        let control_points = control_points.into();
+        check_net(degree, control_points.len())?;
+        Ok(Self::checked(degree, checked(control_points)?))
     }
 
     /// Degree n.
@@ -108,10 +119,7 @@ impl Triangle {
     /// # Errors
     /// [`ShapeError::Degree`], [`ShapeError::TriangleSize`], [`ShapeError::Coordinate`].
     pub fn new(degree: usize, control_points: impl Into<Vec<DVec3>>) -> Result<Self, ShapeError> {
-        let control_points = control_points.into();
-        check_net(degree, control_points.len())?;
-        check_points(&control_points)?;
-        Ok(Self::checked(degree, control_points))
+        Self::from_net(degree, control_points)
     }
 
     /// Point `S(λ₁, λ₂, 1−λ₁−λ₂)`; parameters outside the triangle continue the polynomial.
@@ -173,9 +181,7 @@ impl RationalTriangle {
         degree: usize,
         control_points: impl Into<Vec<DVec4>>,
     ) -> Result<Self, ShapeError> {
-        let control_points = control_points.into();
-        check_net(degree, control_points.len())?;
-        Ok(Self::checked(degree, checked(control_points)?))
+        Self::from_net(degree, control_points)
     }
 
     /// Weights, in the order of the control points.

@@ -8,11 +8,96 @@ use thiserror::Error;
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SolidError {
-    /// What is wrong with control points, weights or parameters of every kind of shape.
+    /// What can be wrong with control points, weights or parameters of every kind of shape.
+    ///
+    /// ```
+    /// use casteljau_solid::{SolidError, Tetrahedron, geom::glam::DVec3, shape::ShapeError};
+    /// let refused = Tetrahedron::new(0, [DVec3::new(0.0, 0.0, f64::NAN)]).unwrap_err();
+    /// assert!(matches!(refused, SolidError::Shape(ShapeError::Coordinate { place: 0, axis: 2, .. })));
+    /// ```
     #[error(transparent)]
     Shape(#[from] ShapeError),
 
+    /// A hexahedron whose number of control points does not fit its degrees.
+    ///
+    /// ```
+    /// use casteljau_solid::{Hexahedron, SolidError, geom::glam::DVec3};
+    /// let refused = Hexahedron::new([1, 1, 2], [DVec3::ZERO; 8]);
+    /// assert_eq!(refused, Err(SolidError::HexahedronSize { degrees: [1, 1, 2], needed: 12, given: 8 }));
+    /// ```
+    #[error(
+        "a hexahedron of degrees {} × {} × {} has {needed} control points, not {given}",
+        .degrees[0], .degrees[1], .degrees[2]
+    )]
+    HexahedronSize {
+        /// The degrees with u, v and w.
+        degrees: [usize; 3],
+        /// (l+1)(m+1)(n+1).
+        needed: usize,
+        /// The number given.
+        given: usize,
+    },
+
+    /// A tetrahedron whose number of control points does not fit its degree.
+    ///
+    /// ```
+    /// use casteljau_solid::{SolidError, Tetrahedron, geom::glam::DVec3};
+    /// let refused = Tetrahedron::new(2, [DVec3::ZERO; 4]);
+    /// assert_eq!(refused, Err(SolidError::TetrahedronSize { degree: 2, needed: 10, given: 4 }));
+    /// ```
+    #[error("a tetrahedron of degree {degree} has {needed} control points, not {given}")]
+    TetrahedronSize {
+        /// The degree.
+        degree: usize,
+        /// (n+1)(n+2)(n+3)/6.
+        needed: usize,
+        /// The number given.
+        given: usize,
+    },
+
+    /// A wedge whose number of control points does not fit its degrees.
+    ///
+    /// ```
+    /// use casteljau_solid::{SolidError, Wedge, geom::glam::DVec3};
+    /// let refused = Wedge::new([1, 1], [DVec3::ZERO; 8]);
+    /// assert_eq!(refused, Err(SolidError::WedgeSize { degrees: [1, 1], needed: 6, given: 8 }));
+    /// ```
+    #[error(
+        "a wedge of degrees {} (triangle) and {} (height) has {needed} control points, not {given}",
+        .degrees[0], .degrees[1]
+    )]
+    WedgeSize {
+        /// The degrees of the triangle and of the height.
+        degrees: [usize; 2],
+        /// (n+1)(n+2)/2·(o+1).
+        needed: usize,
+        /// The number given.
+        given: usize,
+    },
+
+    /// A quantity that a construction cannot be carried out with.
+    ///
+    /// ```
+    /// use casteljau_solid::{RationalHexahedron, SolidError, shape::RationalCurve, geom::glam::DVec3};
+    /// let meridian = RationalCurve::new(&[DVec3::X, DVec3::new(1.0, 0.0, 2.0)], &[1.0, 1.0])?;
+    /// let refused = RationalHexahedron::rotational_with_center(&meridian, -1.0);
+    /// assert_eq!(refused, Err(SolidError::Construction { what: "weight of the center", value: -1.0 }));
+    /// # Ok::<(), SolidError>(())
+    /// ```
+    #[error("nothing can be constructed with {what}: {value}")]
+    Construction {
+        /// What the quantity is.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+
     /// A kernel refused.
+    ///
+    /// ```
+    /// use casteljau_solid::{Hexahedron, SolidError};
+    /// assert!(matches!(Hexahedron::unit_cube().elevated([500, 0, 0]), Err(SolidError::Kernel(_))));
+    /// ```
     #[error(transparent)]
     Kernel(#[from] BernsteinError),
 }

@@ -3,7 +3,6 @@
 use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
 use casteljau_geom::{COLLAPSE, angle_degrees};
 
-use crate::control_point::private::Projective;
 use crate::{BezierCurve, ControlPoint};
 
 /// The conditions on control points for continuous curvature where one curve ends and another starts.
