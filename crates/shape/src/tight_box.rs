@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use casteljau_bernstein::{TriangleNet, subdivide_along};
+use casteljau_bernstein::{BernsteinError, TriangleNet, subdivide_along};
 use casteljau_geom::glam::{DVec2, DVec3, DVec4};
 use casteljau_geom::{BoundingBox, rounding_bound};
 
@@ -35,7 +35,7 @@ impl<P: ControlPoint> BezierCurve<P> {
     /// [`ShapeError::Construction`] unless the tolerance is positive, [`ShapeError::Unbounded`] where there is a
     /// pole.
     pub fn tight_box(&self, tolerance: f64) -> Result<BoundingBox, ShapeError> {
-        tight_box(self.control_points(), &Grid([self.degree()]), tolerance)
+        tight_box_of_net(self.control_points(), [self.degree()], tolerance)
     }
 }
 
@@ -49,7 +49,7 @@ impl<P: ControlPoint> BezierPatch<P> {
     /// # Errors
     /// Those of [`BezierCurve::tight_box`].
     pub fn tight_box(&self, tolerance: f64) -> Result<BoundingBox, ShapeError> {
-        tight_box(self.control_points(), &Grid(self.degrees()), tolerance)
+        tight_box_of_net(self.control_points(), self.degrees(), tolerance)
     }
 }
 
@@ -62,6 +62,23 @@ impl<P: ControlPoint> BezierTriangle<P> {
     pub fn tight_box(&self, tolerance: f64) -> Result<BoundingBox, ShapeError> {
         tight_box(self.control_points(), &Bisected { degree: self.degree() }, tolerance)
     }
+}
+
+/// The box around a tensor-product shape of any dimension over its unit interval, square or cube, as
+/// [`BezierCurve::tight_box`]; the last axis runs fastest in `points`.
+///
+/// # Errors
+/// Those of [`BezierCurve::tight_box`], and [`ShapeError::Kernel`] where the net does not fit its degrees.
+pub fn tight_box_of_net<P: ControlPoint, const D: usize>(
+    points: &[P],
+    degrees: [usize; D],
+    tolerance: f64,
+) -> Result<BoundingBox, ShapeError> {
+    let needed = degrees.iter().fold(1_usize, |count, d| count.saturating_mul(d.saturating_add(1)));
+    if points.len() != needed {
+        return Err(BernsteinError::BufferLength { buffer: "points", needed, given: points.len() }.into());
+    }
+    tight_box(points, &Grid(degrees), tolerance)
 }
 
 /// How a domain is halved.

@@ -4,6 +4,8 @@ use casteljau_bernstein::BernsteinError;
 use casteljau_shape::ShapeError;
 use thiserror::Error;
 
+use crate::Axis;
+
 /// Why a solid could not be made, or a question about it not be answered.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
@@ -73,6 +75,19 @@ pub enum SolidError {
         needed: usize,
         /// The number given.
         given: usize,
+    },
+
+    /// Three axes that are not U, V and W in some order.
+    ///
+    /// ```
+    /// use casteljau_solid::{Axis, Hexahedron, SolidError};
+    /// let axes = [Axis::U, Axis::W, Axis::W];
+    /// assert_eq!(Hexahedron::unit_cube().permuted(axes), Err(SolidError::Axes { axes }));
+    /// ```
+    #[error("{:?}, {:?}, {:?} are not U, V and W in some order", .axes[0], .axes[1], .axes[2])]
+    Axes {
+        /// The axes given.
+        axes: [Axis; 3],
     },
 
     /// A quantity that a construction cannot be carried out with.

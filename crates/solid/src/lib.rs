@@ -20,16 +20,22 @@ pub use casteljau_bernstein as bernstein;
 pub use casteljau_geom as geom;
 pub use casteljau_shape as shape;
 
+mod constructions;
 mod domain_tetrahedron;
 mod error;
 mod hexahedron;
+mod hexahedron_operations;
 mod parametric;
 mod tetrahedron;
+mod tetrahedron_operations;
 mod wedge;
+mod wedge_operations;
 
+pub use constructions::{Twist, rational_rotation};
 pub use domain_tetrahedron::DomainTetrahedron;
 pub use error::SolidError;
 pub use hexahedron::{BezierHexahedron, Hexahedron, RationalHexahedron};
+pub use hexahedron_operations::{Axis, HexahedronFace};
 pub use parametric::{ParametricSolid, SolidDomain};
 pub use tetrahedron::{BezierTetrahedron, RationalTetrahedron, Tetrahedron};
 pub use wedge::{BezierWedge, RationalWedge, Wedge};
