@@ -31,7 +31,7 @@ mod tetrahedron_operations;
 mod wedge;
 mod wedge_operations;
 
-pub use constructions::{Twist, rational_rotation};
+pub use constructions::{ConstructedSolid, Construction, Twist, rational_rotation};
 pub use domain_tetrahedron::DomainTetrahedron;
 pub use error::SolidError;
 pub use hexahedron::{BezierHexahedron, Hexahedron, RationalHexahedron};
