@@ -1,6 +1,7 @@
 //! What can be wrong with a solid, or with a question about it.
 
 use casteljau_bernstein::BernsteinError;
+use casteljau_geom::glam::DVec3;
 use casteljau_shape::ShapeError;
 use thiserror::Error;
 
@@ -105,6 +106,26 @@ pub enum SolidError {
         what: &'static str,
         /// Its value.
         value: f64,
+    },
+
+    /// It is not decided whether a point belongs to a solid: the work that is allowed was done.
+    ///
+    /// ```
+    /// use casteljau_solid::{Hexahedron, SolidError, SolidLocator, geom::glam::DVec3};
+    /// let mut locator = SolidLocator::of_hexahedron(&Hexahedron::unit_cube())?;
+    /// // Nothing can be told apart at 1e-300.
+    /// let refused = locator.locate_within(DVec3::new(0.3, 0.3, 1.0 + 1e-16), 1e-300);
+    /// assert!(matches!(refused, Ok(Some(_)) | Err(SolidError::Undecided { .. })));
+    /// # Ok::<(), SolidError>(())
+    /// ```
+    #[error("whether {point} belongs to the solid within {tolerance:e} is not decided after {cells} cells")]
+    Undecided {
+        /// The point.
+        point: DVec3,
+        /// The tolerance, in model units.
+        tolerance: f64,
+        /// The number of cells that were looked at.
+        cells: usize,
     },
 
     /// A kernel refused.
