@@ -132,16 +132,37 @@ pub fn compose_wedge<P: Point, S: BernsteinSpace>(
     inner: S,
     out: &mut [P],
 ) -> Result<(), BernsteinError> {
+    check_buffer("height", height.len(), inner.size()?)?;
+    compose_wedge_homogeneous(outer, degrees, coordinates, [&complement(height), height], inner, out)
+}
+
+/// Composition of a wedge with homogeneous arguments: three coordinates of the triangle, which need not add up to 1,
+/// and the pair `[w − z, z]` for a height z/w.
+///
+/// With coordinates whose sum is w the result is the homogeneous form of the composed shape, times wⁿ⁺ᵒ, which cancels
+/// for rational shapes. Otherwise as [`compose_wedge`].
+///
+/// # Errors
+/// As for [`compose_wedge`].
+pub fn compose_wedge_homogeneous<P: Point, S: BernsteinSpace>(
+    outer: &[P],
+    degrees: [usize; 2],
+    coordinates: [&[f64]; 3],
+    height: [&[f64]; 2],
+    inner: S,
+    out: &mut [P],
+) -> Result<(), BernsteinError> {
     let (size, [n, o]) = (inner.size()?, degrees);
     for coordinate in coordinates {
         check_buffer("coordinates", coordinate.len(), size)?;
     }
-    check_buffer("height", height.len(), size)?;
+    for part in height {
+        check_buffer("height", part.len(), size)?;
+    }
     net_size(degrees)?;
     check_buffer("out", out.len(), inner.power(n.saturating_add(o)).size()?)?;
     check_buffer("outer", outer.len(), simplex_size(n, 2).saturating_mul(o.saturating_add(1)))?;
-    let rest = complement(height);
-    let along = composed_basis(o, powers(&rest, o, inner)?, powers(height, o, inner)?, inner)?;
+    let along = composed_basis(o, powers(height[0], o, inner)?, powers(height[1], o, inner)?, inner)?;
     let across: Result<Vec<_>, _> = coordinates.iter().map(|c| powers(c, n, inner)).collect();
     let leaf = |line: &[P]| combine(line, &along, inner);
     out.copy_from_slice(&contract_simplex(outer, n, &across?, o + 1, &leaf)?.points);

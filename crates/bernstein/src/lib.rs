@@ -30,7 +30,7 @@
 //! | change of degree | [`elevate`], [`elevate_along`], [`elevate_tensor`], [`reduce`], [`reduce_along`] |
 //! | parts of the domain | [`subdivide`], [`subdivide_along`], [`restrict`], [`restrict_along`], [`restrict_tensor`] |
 //! | arithmetic | [`sum`], [`product`], [`sum_tensor`], [`product_tensor`] |
-//! | composition | [`compose`], [`compose_homogeneous`], [`compose_simplex`], [`compose_wedge`], [`BernsteinSpace`] |
+//! | composition | [`compose`], [`compose_homogeneous`], [`compose_simplex`], [`compose_wedge`], [`compose_wedge_homogeneous`], [`BernsteinSpace`] |
 //! | power basis | [`from_power`], [`to_power`], [`power_matrix`], [`inverse_power_matrix`] |
 //! | integrals | [`integral`], [`integral_over`], [`moment`], [`antiderivative`] |
 //! | triangles and tetrahedra | [`SimplexNet`]: all of this as methods; [`simplex_basis`], [`simplex_basis_partials`], [`simplex_index`], [`multi_indices`], [`last_barycentric`], [`simplex_from_power`], [`simplex_power_matrix`], [`SimplexSpace`] |
@@ -102,7 +102,9 @@ pub use binomial::{MAX_DEGREE, binomial};
 pub use blossom::{blossom, blossom_tensor};
 pub use bounds::{Extremes, extremes, hull_bounds};
 pub use box_net::{BoxNet, box_partial_count, box_partial_index};
-pub use compose::{compose, compose_homogeneous, compose_simplex, compose_wedge, last_coordinate};
+pub use compose::{
+    compose, compose_homogeneous, compose_simplex, compose_wedge, compose_wedge_homogeneous, last_coordinate,
+};
 pub use elevation::{elevate, elevate_along, elevate_tensor};
 pub use error::BernsteinError;
 pub use integral::{

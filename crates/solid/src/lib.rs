@@ -21,6 +21,7 @@ pub use casteljau_geom as geom;
 pub use casteljau_shape as shape;
 
 mod constructions;
+mod deformation;
 mod domain_tetrahedron;
 mod error;
 mod hexahedron;
@@ -33,6 +34,7 @@ mod wedge;
 mod wedge_operations;
 
 pub use constructions::{ConstructedSolid, Construction, Twist, rational_rotation};
+pub use deformation::{Deformation, LARGEST_COMPOSED_DEGREE};
 pub use domain_tetrahedron::DomainTetrahedron;
 pub use error::SolidError;
 pub use hexahedron::{BezierHexahedron, Hexahedron, RationalHexahedron};

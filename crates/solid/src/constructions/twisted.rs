@@ -102,12 +102,13 @@ impl RationalHexahedron {
         let swept = Self::transitional(patch, curve)?;
         let [l, m, n] = swept.degrees();
         let half_degree = (angle.abs() / PI).floor() + 1.0;
-        if half_degree > MAX_DEGREE as f64 || n + 2 * half_degree as usize > MAX_DEGREE {
-            let degree = n.saturating_add(2 * half_degree as usize);
+        // Beyond the limit the number itself no longer matters, nor whether it fits.
+        let k = half_degree.min(2.0 * MAX_DEGREE as f64) as usize;
+        let degree = n + 2 * k;
+        if degree > MAX_DEGREE {
             return Err(BernsteinError::Degree { degree, limit: MAX_DEGREE }.into());
         }
-        let [cosine, sine, weight] = rational_rotation(angle, half_degree as usize)?;
-        let degree = n + 2 * half_degree as usize;
+        let [cosine, sine, weight] = rational_rotation(angle, k)?;
         let times = |factor: &[f64], line: &[f64]| -> Result<Vec<f64>, SolidError> {
             let mut out = vec![0.0; degree + 1];
             product(factor, line, &mut out)?;
