@@ -60,7 +60,7 @@ mod triangle_operations;
 pub mod control_net {
     pub use crate::control_point::{checked, distance_bound, has_hull, hull_box, largest_weight, lifted};
     pub use crate::error::{check_degree, check_points};
-    pub use crate::tight_box::tight_box_of_net as tight_box;
+    pub use crate::tight_box::{Grid, Halving, tight_box};
 }
 
 pub use area::MeasuredArea;

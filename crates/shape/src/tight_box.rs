@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use casteljau_bernstein::{BernsteinError, TriangleNet, subdivide_along};
+use casteljau_bernstein::{TriangleNet, subdivide_along};
 use casteljau_geom::glam::{DVec2, DVec3, DVec4};
 use casteljau_geom::{BoundingBox, rounding_bound};
 
@@ -35,7 +35,7 @@ impl<P: ControlPoint> BezierCurve<P> {
     /// [`ShapeError::Construction`] unless the tolerance is positive, [`ShapeError::Unbounded`] where there is a
     /// pole.
     pub fn tight_box(&self, tolerance: f64) -> Result<BoundingBox, ShapeError> {
-        tight_box_of_net(self.control_points(), [self.degree()], tolerance)
+        tight_box(self.control_points(), &Grid([self.degree()]), tolerance)
     }
 }
 
@@ -49,7 +49,7 @@ impl<P: ControlPoint> BezierPatch<P> {
     /// # Errors
     /// Those of [`BezierCurve::tight_box`].
     pub fn tight_box(&self, tolerance: f64) -> Result<BoundingBox, ShapeError> {
-        tight_box_of_net(self.control_points(), self.degrees(), tolerance)
+        tight_box(self.control_points(), &Grid(self.degrees()), tolerance)
     }
 }
 
@@ -64,37 +64,28 @@ impl<P: ControlPoint> BezierTriangle<P> {
     }
 }
 
-/// The box around a tensor-product shape of any dimension over its unit interval, square or cube, as
-/// [`BezierCurve::tight_box`]; the last axis runs fastest in `points`.
-///
-/// # Errors
-/// Those of [`BezierCurve::tight_box`], and [`ShapeError::Kernel`] where the net does not fit its degrees.
-pub fn tight_box_of_net<P: ControlPoint, const D: usize>(
-    points: &[P],
-    degrees: [usize; D],
-    tolerance: f64,
-) -> Result<BoundingBox, ShapeError> {
-    let needed = degrees.iter().fold(1_usize, |count, d| count.saturating_mul(d.saturating_add(1)));
-    if points.len() != needed {
-        return Err(BernsteinError::BufferLength { buffer: "points", needed, given: points.len() }.into());
-    }
-    tight_box(points, &Grid(degrees), tolerance)
-}
-
-/// How a domain is halved.
-trait Halving {
+/// A net over a domain that is halved again and again: what [`tight_box`] asks of a kind of shape.
+pub trait Halving {
     /// The sum of the degrees.
     fn total_degree(&self) -> usize;
 
     /// Places of the corners in a net.
     fn corners(&self) -> Vec<usize>;
 
-    /// The nets over the two halves of a part that came out of so many halvings.
+    /// The nets over the two halves of a part that came out of so many halvings, each net being pairs (x, w). After a
+    /// fixed number of halvings the parts must be smaller in every direction.
+    ///
+    /// # Errors
+    /// Those of the kernels, where a net does not fit.
     fn halves(&self, net: &[DVec2], halvings: u32) -> Result<[Vec<DVec2>; 2], ShapeError>;
 }
 
-/// An interval or a rectangle, halved across one axis after another.
-struct Grid<const D: usize>([usize; D]);
+/// An interval, a rectangle or a box under a tensor-product net of these degrees, halved across one axis after another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Grid<const D: usize>(
+    /// The degrees, the last axis running fastest.
+    pub [usize; D],
+);
 
 impl<const D: usize> Halving for Grid<D> {
     fn total_degree(&self) -> usize {
@@ -145,7 +136,12 @@ impl Halving for Bisected {
     }
 }
 
-fn tight_box<P: ControlPoint>(
+/// The box around a shape over its domain, each face at most `tolerance` away from touching it, in model units; see
+/// [`BezierCurve::tight_box`].
+///
+/// # Errors
+/// Those of [`BezierCurve::tight_box`], and of [`Halving::halves`].
+pub fn tight_box<P: ControlPoint>(
     points: &[P],
     domain: &dyn Halving,
     tolerance: f64,

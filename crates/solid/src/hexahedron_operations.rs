@@ -3,8 +3,8 @@
 use casteljau_bernstein::{
     BernsteinError, MAX_DEGREE, elevate_tensor, reduce_along, restrict_tensor, subdivide_along, value,
 };
-use casteljau_geom::{BoundingBox, Interval};
-use casteljau_shape::control_net::{check_points, distance_bound, tight_box};
+use casteljau_geom::Interval;
+use casteljau_shape::control_net::{check_points, distance_bound};
 use casteljau_shape::{BezierCurve, BezierPatch, ControlPoint, Parameters};
 
 use crate::{BezierHexahedron, SolidError};
@@ -279,15 +279,5 @@ impl<P: ControlPoint> BezierHexahedron<P> {
         restrict_tensor(self.control_points(), self.degrees(), part, &mut points)?;
         check_points(&points)?;
         Ok(Self::checked(intervals, self.degrees(), points))
-    }
-
-    /// The box around the solid over its domain, each face at most `tolerance` away from touching it, in model units;
-    /// see [`BezierPatch::tight_box`].
-    ///
-    /// # Errors
-    /// [`ShapeError::Construction`](casteljau_shape::ShapeError::Construction) unless the tolerance is positive,
-    /// [`ShapeError::Unbounded`](casteljau_shape::ShapeError::Unbounded) where there is a pole.
-    pub fn tight_box(&self, tolerance: f64) -> Result<BoundingBox, SolidError> {
-        Ok(tight_box(self.control_points(), self.degrees(), tolerance)?)
     }
 }

@@ -30,6 +30,7 @@ mod inversion;
 mod parametric;
 mod tetrahedron;
 mod tetrahedron_operations;
+mod tight_box;
 mod wedge;
 mod wedge_operations;
 

@@ -144,6 +144,7 @@ proptest! {
         let fourth = 1.0 - a - b - c;
         same(permuted.point([c, a, fourth]).unwrap(), exact, 2 * degree, scale)?;
         prop_assert!(solid.hull_box().unwrap().grown(allowed(degree, scale)).contains(exact));
+        prop_assert!(solid.tight_box(0.1 * scale).unwrap().grown(allowed(degree, scale)).contains(exact));
     }
 
     #[test]
@@ -177,6 +178,7 @@ proptest! {
         let turned = solid.reoriented([1, 2, 0], true).unwrap();
         same(turned.point([b, 1.0 - a - b, 1.0 - w]).unwrap(), exact, 2 * degree, scale)?;
         prop_assert!(solid.hull_box().unwrap().grown(allowed(degree, scale)).contains(exact));
+        prop_assert!(solid.tight_box(0.1 * scale).unwrap().grown(allowed(degree, scale)).contains(exact));
     }
 
     /// Reduction undoes elevation, and its bound holds.
@@ -303,4 +305,44 @@ fn domain_tetrahedra() {
     assert!((gradient - DMat3::IDENTITY).to_cols_array().iter().all(|x| x.abs() < 1e-14));
     let flat = DomainTetrahedron::new([DVec3::X, DVec3::Y, DVec3::ZERO, DVec3::new(0.3, 0.3, 0.0)]);
     assert!(matches!(flat, Err(SolidError::Construction { .. })));
+}
+
+/// Boxes that touch: against the extremes of a fine grid of parameters.
+#[test]
+fn tight_boxes_touch() {
+    let place = |k: usize| DVec3::new((k as f64 * 0.7).sin(), (k as f64 * 1.3).cos(), (k as f64 * 2.1).sin());
+    let points: Vec<DVec3> = (0..27).map(place).collect();
+    let weights: Vec<f64> = (0..27).map(|k| 1.0 + 0.5 * (k as f64).sin()).collect();
+    let hexahedron = RationalHexahedron::new([2; 3], &points, &weights).unwrap();
+    let tetrahedron = RationalTetrahedron::new(2, &points[..10], &weights[..10]).unwrap();
+    let wedge = RationalWedge::new([2, 2], &points[..18], &weights[..18]).unwrap();
+    let tolerance = 1e-3;
+    let boxes = [
+        hexahedron.tight_box(tolerance).unwrap(),
+        tetrahedron.tight_box(tolerance).unwrap(),
+        wedge.tight_box(tolerance).unwrap(),
+    ];
+    let solids: [&dyn ParametricSolid; 3] = [&hexahedron, &tetrahedron, &wedge];
+    for (solid, bounds) in solids.into_iter().zip(boxes) {
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let steps = 40;
+        for k in 0..(steps + 1_usize).pow(3) {
+            let at = [k % (steps + 1), k / (steps + 1) % (steps + 1), k / (steps + 1).pow(2)];
+            let at = at.map(|i| i as f64 / steps as f64);
+            if solid.domain().contains(at) {
+                let p = solid.try_point(at).unwrap();
+                (low, high) = (low.min(p), high.max(p));
+            }
+        }
+        // Second derivatives below 40: half a step from an extreme the surface has fallen by 40/8 steps².
+        let missed = 5.0 / (steps * steps) as f64 * 3.0;
+        assert!(
+            (low - bounds.min).min_element() >= -1e-12
+                && (low - bounds.min).max_element() <= tolerance + missed
+        );
+        assert!(
+            (bounds.max - high).min_element() >= -1e-12
+                && (bounds.max - high).max_element() <= tolerance + missed
+        );
+    }
 }
