@@ -67,6 +67,17 @@ fn inversion_benches(criterion: &mut Criterion) {
             b.iter(|| SolidLocator::of_hexahedron(&solids[0]).unwrap().size());
         });
     }
+    let mut locator = SolidLocator::of_hexahedron(&ball()).unwrap();
+    let direction = |k: usize| (spread(k) - 0.5).normalize();
+    group.throughput(Throughput::Elements(QUERIES as u64));
+    for gap in [1e-2, 1e-6, 1e-10] {
+        group.bench_function(format!("ball, points {gap:e} outside"), |b| {
+            b.iter(|| -> usize {
+                let outside = |k: usize| locator.locate(direction(k) * (1.0 + gap)).unwrap().is_none();
+                (0..QUERIES).map(outside).filter(|&outside| outside).count()
+            });
+        });
+    }
     group.finish();
 }
 

@@ -13,7 +13,7 @@ use super::domain::Domain;
 use crate::SolidError;
 
 /// Cells looked at for one point, at most, beyond the first ones.
-const MOST_CELLS: usize = 20_000;
+const MOST_CELLS: usize = 5_000;
 
 /// Cells that a locator prepares, at least.
 const PREPARED: usize = 64;
@@ -182,11 +182,13 @@ impl<D: Domain> Search<D> {
             open.push((cell.cell, 0));
         }
         // Damped steps where plain ones were of no use: the Jacobian vanishes nearby.
-        for (cell, _) in &open {
-            if let Some(hit) = self.damped(self.domain.center(cell), p, tolerance) {
-                return Ok(Some(hit));
-            }
+        if let Some((cell, _)) = open.first()
+            && let Some(hit) = self.damped(self.domain.center(cell), p, tolerance)
+        {
+            return Ok(Some(hit));
         }
+        // The nearest cell last, to be taken first.
+        open.reverse();
         self.subdivide(open, p, tolerance, unsure, work)
     }
 
@@ -217,10 +219,11 @@ impl<D: Domain> Search<D> {
                     work.net = net;
                     return Ok(Some(hit));
                 }
-                let hit = if depth % 4 == 3 {
-                    self.damped(center, p, tolerance)
-                } else {
-                    self.newton(center, p, tolerance)
+                // Descents are dear: cells that hold no parameter of p are mostly left out a little later.
+                let hit = match depth % 6 {
+                    2 => self.newton(center, p, tolerance),
+                    5 => self.damped(center, p, tolerance),
+                    _ => None,
                 };
                 if hit.is_some() {
                     work.net = net;
