@@ -1,7 +1,8 @@
 //! Domains of solids as the search for a point sees them: cut into cells, each with the net over it.
 
 use casteljau_bernstein::{
-    BoxNet, SimplexNet, TetrahedronNet, WedgeNet, last_barycentric, restrict_tensor, simplex_count,
+    BoxNet, SimplexNet, TetrahedronNet, WedgeNet, last_barycentric, multi_indices, restrict_tensor,
+    simplex_count, simplex_index,
 };
 use casteljau_geom::glam::{DMat3, DVec3, DVec4};
 
@@ -33,6 +34,21 @@ pub(super) trait Domain {
     /// From the cell's own coordinates, −1 to 1 about its middle, to parameters: half edges as columns.
     fn frame(&self, cell: &Self::Cell) -> DMat3;
 
+    /// A cell about the same middle, so many times as large; it may reach beyond the domain.
+    fn grown(&self, cell: &Self::Cell, factor: f64) -> Self::Cell;
+
+    /// Whether a cell contains parameters and all that are no farther from them than `margin` in each.
+    fn holds(&self, cell: &Self::Cell, at: DVec3, margin: f64) -> bool;
+
+    /// Whether all parameters no farther than `margin` in each from these are outside the domain.
+    fn is_outside(&self, at: DVec3, margin: f64) -> bool;
+
+    /// A bound on `Σ|B|` over a cell: how far rounding may grow where a cell reaches beyond the domain.
+    fn growth(&self, cell: &Self::Cell) -> f64;
+
+    /// Hands out the Bernstein coefficients of the derivatives over a cell by its own coordinates, from its net.
+    fn slopes(&self, net: &[DVec4], visit: impl FnMut(usize, DVec4));
+
     /// The net over a cell, in the order of the whole.
     fn restrict(
         &self,
@@ -50,6 +66,40 @@ pub(super) trait Domain {
 
     /// The sum of the degrees.
     fn degree(&self) -> usize;
+}
+
+fn grown_interval([a, b]: [f64; 2], factor: f64) -> [f64; 2] {
+    let (middle, half) = (0.5 * (a + b), 0.5 * (b - a) * factor);
+    [middle - half, middle + half]
+}
+
+/// The largest `(|1−t| + |t|)ⁿ` of an interval.
+fn spread(interval: &[f64; 2], degree: usize) -> f64 {
+    let largest = interval.iter().map(|t| (1.0 - t).abs() + t.abs()).fold(1.0, f64::max);
+    largest.powi(i32::try_from(degree).unwrap_or(i32::MAX))
+}
+
+/// The largest `(Σ|λ|)ⁿ` of corners in (λ₁, λ₂, λ₃), with the last coordinate from the others.
+fn simplex_spread(corners: &[DVec3], degree: usize) -> f64 {
+    let sum = |c: &DVec3| c.abs().element_sum() + (1.0 - c.element_sum()).abs();
+    let largest = corners.iter().map(sum).fold(1.0, f64::max);
+    largest.powi(i32::try_from(degree).unwrap_or(i32::MAX))
+}
+
+/// Whether the first `count` of the coordinates `M·x`, and 1 less their sum, are at least 0 for all that is within
+/// `margin` of x.
+fn holds_coordinates(m: DMat3, x: DVec3, margin: f64, count: usize) -> bool {
+    let coordinates = m * x;
+    let slack = (m.x_axis.abs() + m.y_axis.abs() + m.z_axis.abs()) * margin;
+    let (mut sum, mut unsure) = (0.0, 0.0);
+    for axis in 0..count {
+        if coordinates[axis].is_nan() || coordinates[axis] < slack[axis] {
+            return false;
+        }
+        sum += coordinates[axis];
+        unsure += slack[axis];
+    }
+    sum + unsure <= 1.0
 }
 
 /// `[0, 1]³` under a tensor-product net.
@@ -88,6 +138,35 @@ impl Domain for Cube {
 
     fn frame(&self, cell: &Self::Cell) -> DMat3 {
         DMat3::from_diagonal(DVec3::from_array(cell.map(|[a, b]| 0.5 * (b - a))))
+    }
+
+    fn grown(&self, cell: &Self::Cell, factor: f64) -> Self::Cell {
+        cell.map(|interval| grown_interval(interval, factor))
+    }
+
+    fn holds(&self, cell: &Self::Cell, at: DVec3, margin: f64) -> bool {
+        (0..3).all(|axis| cell[axis][0] <= at[axis] - margin && at[axis] + margin <= cell[axis][1])
+    }
+
+    fn is_outside(&self, at: DVec3, margin: f64) -> bool {
+        at.cmplt(DVec3::splat(-margin)).any() || at.cmpgt(DVec3::splat(1.0 + margin)).any()
+    }
+
+    fn growth(&self, cell: &Self::Cell) -> f64 {
+        cell.iter().zip(self.0).map(|(&interval, degree)| spread(&interval, degree)).product()
+    }
+
+    fn slopes(&self, net: &[DVec4], mut visit: impl FnMut(usize, DVec4)) {
+        let [l, m, n] = self.0;
+        let strides = [(m + 1) * (n + 1), n + 1, 1];
+        for (place, &p) in net.iter().enumerate() {
+            let index = [place / strides[0], place / strides[1] % (m + 1), place % (n + 1)];
+            for (axis, degree) in [l, m, n].into_iter().enumerate() {
+                if index[axis] < degree {
+                    visit(axis, (net[place + strides[axis]] - p) * (0.5 * degree as f64));
+                }
+            }
+        }
     }
 
     fn restrict(
@@ -156,6 +235,38 @@ impl Domain for Corner {
 
     fn frame(&self, [a, b, c, d]: &Self::Cell) -> DMat3 {
         DMat3::from_cols(0.5 * (a - d), 0.5 * (b - d), 0.5 * (c - d))
+    }
+
+    fn grown(&self, cell: &Self::Cell, factor: f64) -> Self::Cell {
+        let center = self.center(cell);
+        cell.map(|corner| center + factor * (corner - center))
+    }
+
+    fn holds(&self, cell: &Self::Cell, at: DVec3, margin: f64) -> bool {
+        let to_local = (2.0 * self.frame(cell)).inverse();
+        holds_coordinates(to_local, at - cell[3], margin, 3)
+    }
+
+    fn is_outside(&self, at: DVec3, margin: f64) -> bool {
+        at.cmplt(DVec3::splat(-margin)).any() || at.element_sum() > 1.0 + 3.0 * margin
+    }
+
+    fn growth(&self, cell: &Self::Cell) -> f64 {
+        simplex_spread(cell, self.0)
+    }
+
+    fn slopes(&self, net: &[DVec4], mut visit: impl FnMut(usize, DVec4)) {
+        let Some(lower) = self.0.checked_sub(1) else { return };
+        for index in multi_indices::<4>(lower) {
+            let at = |vertex: usize| {
+                let mut raised = index;
+                raised[vertex] += 1;
+                net[simplex_index(raised)]
+            };
+            for axis in 0..3 {
+                visit(axis, (at(axis) - at(3)) * (0.5 * self.0 as f64));
+            }
+        }
     }
 
     fn restrict(
@@ -236,6 +347,52 @@ impl Domain for Prism {
     fn frame(&self, cell: &PrismCell) -> DMat3 {
         let ([a, b, c], [bottom, top]) = (cell.corners, cell.height);
         DMat3::from_cols(0.5 * (a - c), 0.5 * (b - c), DVec3::Z * (0.5 * (top - bottom)))
+    }
+
+    fn grown(&self, cell: &PrismCell, factor: f64) -> PrismCell {
+        let [a, b, c] = cell.corners;
+        let center = (a + b + c) / 3.0;
+        PrismCell {
+            corners: cell.corners.map(|corner| center + factor * (corner - center)),
+            height: grown_interval(cell.height, factor),
+        }
+    }
+
+    fn holds(&self, cell: &PrismCell, at: DVec3, margin: f64) -> bool {
+        let [bottom, top] = cell.height;
+        let to_local = (2.0 * self.frame(cell)).inverse();
+        let from_corner = at - cell.corners[2] - DVec3::Z * bottom;
+        bottom <= at.z - margin && at.z + margin <= top && holds_coordinates(to_local, from_corner, margin, 2)
+    }
+
+    fn is_outside(&self, at: DVec3, margin: f64) -> bool {
+        at.cmplt(DVec3::splat(-margin)).any() || at.z > 1.0 + margin || at.x + at.y > 1.0 + 2.0 * margin
+    }
+
+    fn growth(&self, cell: &PrismCell) -> f64 {
+        simplex_spread(&cell.corners, self.0[0]) * spread(&cell.height, self.0[1])
+    }
+
+    fn slopes(&self, net: &[DVec4], mut visit: impl FnMut(usize, DVec4)) {
+        let [n, o] = self.0;
+        for (place, &p) in net.iter().enumerate() {
+            if place % (o + 1) < o {
+                visit(2, (net[place + 1] - p) * (0.5 * o as f64));
+            }
+        }
+        let Some(lower) = n.checked_sub(1) else { return };
+        for index in multi_indices::<3>(lower) {
+            for k in 0..=o {
+                let at = |vertex: usize| {
+                    let mut raised = index;
+                    raised[vertex] += 1;
+                    net[simplex_index(raised) * (o + 1) + k]
+                };
+                for axis in 0..2 {
+                    visit(axis, (at(axis) - at(2)) * (0.5 * n as f64));
+                }
+            }
+        }
     }
 
     fn restrict(

@@ -54,6 +54,7 @@ pub(super) struct Search<D: Domain> {
 #[derive(Default)]
 pub(super) struct Work {
     net: Vec<DVec4>,
+    grown: Vec<DVec4>,
     scratch: Vec<DVec4>,
     order: Vec<(f64, usize)>,
 }
@@ -165,9 +166,9 @@ impl<D: Domain> Search<D> {
         work: &mut Work,
     ) -> Result<Option<Hit>, SolidError> {
         // The cell whose own map comes nearest to p is nearly always the right one.
-        if let Some(&(_, place)) = order.first()
-            && let Some(hit) = self.newton(self.prepared[place].center, p, tolerance)
-        {
+        let root =
+            order.first().and_then(|&(_, place)| self.newton(self.prepared[place].center, p, tolerance));
+        if let Some(hit) = root.and_then(|at| self.within(at, p, tolerance)) {
             return Ok(Some(hit));
         }
         let mut open = Vec::new();
@@ -177,6 +178,9 @@ impl<D: Domain> Search<D> {
                 continue;
             }
             if self.middle(&cell.net, p).is_some_and(|m| self.excluded(&cell.net, p, m, unsure)) {
+                continue;
+            }
+            if root.is_some_and(|root| self.holds_no_other(&cell.cell, root, p, unsure, work)) {
                 continue;
             }
             open.push((cell.cell, 0));
@@ -220,14 +224,21 @@ impl<D: Domain> Search<D> {
                     return Ok(Some(hit));
                 }
                 // Descents are dear: cells that hold no parameter of p are mostly left out a little later.
-                let hit = match depth % 6 {
-                    2 => self.newton(center, p, tolerance),
-                    5 => self.damped(center, p, tolerance),
-                    _ => None,
-                };
+                let (mut hit, mut root) = (None, None);
+                match depth % 4 {
+                    1 => root = self.newton(center, p, tolerance),
+                    3 => hit = self.damped(center, p, tolerance),
+                    _ => {}
+                }
+                if let Some(root) = root {
+                    hit = self.within(root, p, tolerance);
+                }
                 if hit.is_some() {
                     work.net = net;
                     return Ok(hit);
+                }
+                if root.is_some_and(|root| self.holds_no_other(&half, root, p, unsure, work)) {
+                    continue;
                 }
                 open.push((half, depth + 1));
             }
@@ -277,22 +288,63 @@ impl<D: Domain> Search<D> {
         residual.is_finite().then_some(Hit { at, residual })
     }
 
-    /// Newton's method, free to leave the domain on its way.
-    fn newton(&self, start: DVec3, p: DVec3, tolerance: f64) -> Option<Hit> {
+    /// Whether a cell certainly holds no parameter of p, given one that is no parameter of the domain but was found to
+    /// give p.
+    ///
+    /// With M the inverse Jacobian of g = wF − w·p in the middle of a larger cell that holds both, and ε < 1 a bound of
+    /// |M ∂g − 1| on it, |M g(x) − M g(y)| ≥ (1−ε)|x−y|: a zero is no farther than |M g(root)|/(1−ε) from the root.
+    fn holds_no_other(&self, cell: &D::Cell, root: DVec3, p: DVec3, unsure: f64, work: &mut Work) -> bool {
+        let Some(grown) = [1.5, 3.0]
+            .map(|factor| self.domain.grown(cell, factor))
+            .into_iter()
+            .find(|grown| self.domain.holds(grown, root, 0.0))
+        else {
+            return false;
+        };
+        work.grown.resize(self.net.len(), DVec4::ZERO);
+        if self.domain.restrict(&self.net, &grown, &mut work.grown, &mut work.scratch).is_err() {
+            return false;
+        }
+        // By half edges the Jacobian is half of that by the domain of the restricted net.
+        let Some(m) = self.middle(&work.grown, p).map(|m| m * 2.0) else { return false };
+        let error =
+            (m.x_axis.abs() + m.y_axis.abs() + m.z_axis.abs()) * (unsure * self.domain.growth(&grown));
+        let mut most = [DVec3::ZERO; 3];
+        let mut seen = [false; 3];
+        self.domain.slopes(&work.grown, |axis, slope| {
+            let off = (m * (slope.xyz() - p * slope.w) - DVec3::AXES[axis]).abs();
+            most[axis] = most[axis].max(off);
+            seen[axis] = true;
+        });
+        if seen != [true; 3] {
+            return false;
+        }
+        // A difference of two coefficients times half the degree; the product with M rounds less.
+        let rounding = error * (6.0 * self.domain.degree() as f64);
+        let deviation = (most[0] + most[1] + most[2] + rounding).max_element();
+        let [value, ..] = self.domain.jet(&self.net, root);
+        let step = ((m * (value.xyz() - p * value.w)).abs() + error * 2.0).max_element();
+        let frame = self.domain.frame(&grown);
+        let widest = (frame.x_axis.abs() + frame.y_axis.abs() + frame.z_axis.abs()).max_element();
+        deviation < 1.0 && self.domain.is_outside(root, widest * step / (1.0 - deviation))
+    }
+
+    /// Newton's method, free to leave the domain: parameters that give p within the tolerance.
+    fn newton(&self, start: DVec3, p: DVec3, tolerance: f64) -> Option<DVec3> {
         let (mut at, mut before) = (start, f64::INFINITY);
         for step in 0..NEWTON_STEPS {
             let [n, u, v, w] = self.domain.jet(&self.net, at);
             let point = n.xyz() / n.w;
             let away = point - p;
             let residual = away.length();
+            if residual <= 0.25 * tolerance {
+                return Some(at);
+            }
             // Quadratic convergence, or none.
             if !residual.is_finite() || (step > 3 && residual > 0.5 * before) {
                 break;
             }
             before = residual;
-            if residual <= 0.25 * tolerance {
-                break;
-            }
             let column = |d: DVec4| (d.xyz() - point * d.w) / n.w;
             let next = at - inverse(DMat3::from_cols(column(u), column(v), column(w)))? * away;
             // Far outside the map means nothing.
@@ -301,6 +353,11 @@ impl<D: Domain> Search<D> {
             }
             at = next;
         }
+        self.hit(at, p).filter(|hit| hit.residual <= tolerance).map(|_| at)
+    }
+
+    /// The nearest parameters of the domain, if they give p within the tolerance too.
+    fn within(&self, at: DVec3, p: DVec3, tolerance: f64) -> Option<Hit> {
         self.hit(self.domain.clamp(at), p).filter(|hit| hit.residual <= tolerance)
     }
 
