@@ -15,4 +15,40 @@ pub enum SolidError {
     /// A kernel refused.
     #[error(transparent)]
     Kernel(#[from] BernsteinError),
+
+    /// A net whose number of control points does not fit its degrees.
+    ///
+    /// ```
+    /// use casteljau_solid::{SolidError, SolidNet, jacobian_verdict, geom::glam::DVec3};
+    /// let net = SolidNet::Tetrahedron { points: &[DVec3::ZERO; 3], degree: 1 };
+    /// assert_eq!(jacobian_verdict(&net, 1000), Err(SolidError::NetLength { needed: 4, given: 3 }));
+    /// ```
+    #[error("a net of these degrees has {needed} control points, not {given}")]
+    NetLength {
+        /// The number that fits.
+        needed: usize,
+        /// The number given.
+        given: usize,
+    },
+
+    /// A rational solid with a point at infinity: its weight function is zero there.
+    ///
+    /// ```
+    /// use casteljau_solid::{SolidError, SolidNet, jacobian_verdict, geom::glam::DVec4};
+    /// let points = [DVec4::X + DVec4::W, DVec4::Y + DVec4::W, DVec4::Z, DVec4::W];
+    /// let net = SolidNet::Tetrahedron { points: &points, degree: 1 };
+    /// assert_eq!(jacobian_verdict(&net, 1000), Err(SolidError::WeightZero { at: [0.0, 0.0, 1.0] }));
+    /// ```
+    #[error("the weight is zero at the parameters {at:?}")]
+    WeightZero {
+        /// Parameters, to some roundings.
+        at: [f64; 3],
+    },
+
+    /// A rational solid whose weight function comes so near to zero that its sign was not found for the operations given.
+    #[error("the sign of the weight near the parameters {at:?} is not decided")]
+    WeightUndecided {
+        /// Parameters.
+        at: [f64; 3],
+    },
 }

@@ -4,6 +4,11 @@ pub use casteljau_bernstein as bernstein;
 pub use casteljau_geom as geom;
 pub use casteljau_shape as shape;
 
+mod certificate;
 mod error;
 
+pub use certificate::{
+    DEFAULT_OPERATIONS, Feature, JacobianCoefficients, JacobianVerdict, SolidDegrees, SolidNet,
+    jacobian_verdict,
+};
 pub use error::SolidError;
