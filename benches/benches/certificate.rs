@@ -33,7 +33,7 @@ fn cube(k: usize, n: usize, noise: f64) -> Vec<DVec3> {
 
 /// The ball of radius 1 as one rational hexahedron: half a circle about the axis.
 fn ball() -> Vec<DVec4> {
-    let meridian = [[0.0, -1.0, 1.0], [1.0, -1.0, 1.0 / 3.0], [1.0, 1.0, 1.0 / 3.0], [0.0, 1.0, 1.0]];
+    let meridian = [[0.0, -1.0, 1.0], [2.0, -1.0, 1.0 / 3.0], [2.0, 1.0, 1.0 / 3.0], [0.0, 1.0, 1.0]];
     let turned = [[1, 0], [1, -1], [0, -1], [1, 1], [0, 0], [-1, -1], [0, 1], [-1, 1], [-1, 0]];
     let shares = [1.0, 1.0, 2.0];
     let place = |p: usize| {

@@ -51,4 +51,28 @@ pub enum SolidError {
         /// Parameters.
         at: [f64; 3],
     },
+
+    /// Volume and moments of a rational solid were not reached to the accuracy asked for.
+    ///
+    /// ```
+    /// use casteljau_solid::{SolidError, SolidNet, mass_properties, geom::glam::DVec4};
+    /// let points = [DVec4::X + DVec4::W, DVec4::Y + DVec4::W, DVec4::Z + DVec4::W, 2.0 * DVec4::W];
+    /// let net = SolidNet::Tetrahedron { points: &points, degree: 1 };
+    /// assert!(mass_properties(&net, 1e-12).is_ok());
+    /// let refused = mass_properties(&net, 1e-18); // below rounding
+    /// assert!(matches!(refused, Err(SolidError::Moments { reached, .. }) if reached < 1e-13));
+    /// ```
+    #[error(
+        "volume {volume:e} is known to {reached:.1e} of itself, not to {relative:.1e}, after {cells} cells"
+    )]
+    Moments {
+        /// The volume found.
+        volume: f64,
+        /// The largest of the relative errors of the volume and the moments, estimated.
+        reached: f64,
+        /// The relative error asked for.
+        relative: f64,
+        /// The number of cells that were looked at.
+        cells: usize,
+    },
 }

@@ -5,6 +5,7 @@ use casteljau_geom::UNIT_ROUNDOFF;
 use casteljau_shape::ControlPoint;
 
 use super::net::{SolidDegrees, SolidNet};
+use super::product::{Polynomial, Term, beyond_exact, contract, minors};
 use crate::SolidError;
 
 /// Control points are taken to be right to so many units of roundoff of their size: sums like x + y, rotations and
@@ -49,39 +50,17 @@ impl JacobianCoefficients {
     /// [`new`](Self::new) for a net that was checked.
     pub(super) fn of<P: ControlPoint>(net: &SolidNet<'_, P>) -> Self {
         let points = Points::new(net);
-        let degrees = net.degrees();
-        let flat = |exponent| Self {
-            degrees: degrees.constant(),
-            values: vec![0.0],
-            rounding: vec![0.0],
-            tolerances: vec![0.0],
-            exponent,
-        };
-        let derivative = |axis: usize| {
-            let lower = degrees.lowered(axis)?;
-            let factor = degrees.along()[axis] as f64;
-            Some(points.row(degrees, lower, factor, unit(axis), Some([0; 3])))
-        };
-        let Some(lower) = degrees.lowered(0) else { return flat(0) };
-        let (Some(v), Some(w)) = (derivative(1), derivative(2)) else { return flat(0) };
-        if !P::RATIONAL {
-            let Some(u) = derivative(0) else { return flat(0) };
-            let normals = minors(&v, &w, &[(1, 2), (2, 0), (0, 1)]);
-            return contract(&u.narrowed(), &normals, [(0, 1.0), (1, 1.0), (2, 1.0)], 1.0)
-                .finished(points.exponent(3, 0));
+        let exponent = 3 * points.in_space + points.in_weight;
+        match determinant::<P>(&points, net.degrees()) {
+            Some(determinant) => finished(determinant, exponent, points.rounded),
+            None => Self {
+                degrees: net.degrees().constant(),
+                values: vec![0.0],
+                rounding: vec![0.0],
+                tolerances: vec![0.0],
+                exponent,
+            },
         }
-        let part = |shift| points.row(degrees, lower, 1.0, shift, None);
-        let n = degrees.along()[0] as f64;
-        let (third, fourth, factor) = match degrees {
-            SolidDegrees::Hexahedron(_) => (v, w, n),
-            SolidDegrees::Tetrahedron(_) => (part(unit(1)), part(unit(2)), n * n * n),
-            SolidDegrees::Wedge(_) => (part(unit(1)), w, n * n),
-        };
-        // Laplace's expansion by the first two columns: each minor with the one that it leaves.
-        let all = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
-        let complements = [(5, 1.0), (4, -1.0), (3, 1.0), (2, 1.0), (1, -1.0), (0, 1.0)];
-        let (left, right) = (minors(&part([0; 3]), &part(unit(0)), &all), minors(&third, &fourth, &all));
-        contract(&left, &right, complements, -factor).finished(points.exponent(3, 1))
     }
 
     /// The degrees that the determinant is written in.
@@ -120,9 +99,42 @@ impl JacobianCoefficients {
 }
 
 /// `x·2ᵏ`, at the end of the range where it would leave it.
-pub(super) fn scaled(x: f64, exponent: i32) -> f64 {
+pub(crate) fn scaled(x: f64, exponent: i32) -> f64 {
     let half = exponent / 2;
     (x * 2_f64.powi(half) * 2_f64.powi(exponent - half)).clamp(f64::MIN, f64::MAX)
+}
+
+/// det J of a polynomial solid, times 2 to the power that is returned with it; `None` where it is zero by its degrees.
+pub(crate) fn jacobian<P: ControlPoint>(net: &SolidNet<'_, P>) -> Option<(Polynomial<1>, i32)> {
+    let points = Points::new(net);
+    Some((determinant::<P>(&points, net.degrees())?, 3 * points.in_space))
+}
+
+/// det J or D; `None` for solids of degree 0 in a direction, which are flat.
+fn determinant<P: ControlPoint>(points: &Points, degrees: SolidDegrees) -> Option<Polynomial<1>> {
+    let derivative = |axis: usize| {
+        let lower = degrees.lowered(axis)?;
+        let factor = degrees.along()[axis] as f64;
+        Some(points.row(degrees, lower, factor, unit(axis), Some([0; 3])))
+    };
+    let (v, w) = (derivative(1)?, derivative(2)?);
+    if !P::RATIONAL {
+        let normals = minors(&v, &w, &[(1, 2), (2, 0), (0, 1)]);
+        return Some(contract(&derivative(0)?.narrowed(), &normals, [(0, 1.0), (1, 1.0), (2, 1.0)], 1.0));
+    }
+    let lower = degrees.lowered(0)?;
+    let part = |shift| points.row(degrees, lower, 1.0, shift, None);
+    let n = degrees.along()[0] as f64;
+    let (third, fourth, factor) = match degrees {
+        SolidDegrees::Hexahedron(_) => (v, w, n),
+        SolidDegrees::Tetrahedron(_) => (part(unit(1)), part(unit(2)), n * n * n),
+        SolidDegrees::Wedge(_) => (part(unit(1)), w, n * n),
+    };
+    // Laplace's expansion by the first two columns: each minor with the one that it leaves.
+    let all = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
+    let complements = [(5, 1.0), (4, -1.0), (3, 1.0), (2, 1.0), (1, -1.0), (0, 1.0)];
+    let (left, right) = (minors(&part([0; 3]), &part(unit(0)), &all), minors(&third, &fourth, &all));
+    Some(contract(&left, &right, complements, -factor))
 }
 
 const fn unit(axis: usize) -> [usize; 3] {
@@ -177,10 +189,6 @@ impl Points {
         Self { points: points.iter().map(|&p| bring(p)).collect(), uncertain, in_space, in_weight, rounded }
     }
 
-    fn exponent(&self, in_space: i32, in_weight: i32) -> Scale {
-        Scale { exponent: in_space * self.in_space + in_weight * self.in_weight, rounded: self.rounded }
-    }
-
     /// Differences of points (or the points themselves), times `factor` and the multiplicities of the degrees `lower`.
     fn row(
         &self,
@@ -207,20 +215,14 @@ impl Points {
 }
 
 /// The power of two that brings a number to [1, 2).
-fn exponent(largest: f64) -> i32 {
+pub(crate) fn exponent(largest: f64) -> i32 {
     if largest > 0.0 { largest.log2().floor() as i32 } else { 0 }
-}
-
-/// Binomial coefficients above degree 50 are rounded: so many more roundings.
-fn beyond_exact(degrees: SolidDegrees) -> f64 {
-    let highest = degrees.along().into_iter().fold(0, usize::max);
-    if highest > 50 { 6.0 * highest as f64 } else { 0.0 }
 }
 
 /// A point in the middle of the control points, with few digits; the origin unless the solid is small beside its distance.
 ///
 /// Few digits make the products with the weights exact where these have few digits too.
-fn center(points: &[DVec4]) -> [f64; 3] {
+pub(crate) fn center(points: &[DVec4]) -> [f64; 3] {
     std::array::from_fn(|axis| {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for p in points.iter().filter(|p| p.w != 0.0) {
@@ -236,122 +238,20 @@ fn center(points: &[DVec4]) -> [f64; 3] {
     })
 }
 
-struct Scale {
-    exponent: i32,
-    rounded: bool,
-}
-
-/// What belongs to one product of basis functions: K components, the sums of the absolute values of their contributions,
-/// and what these change by for control points that are uncertain by one unit.
-#[derive(Clone, Copy)]
-struct Term<const K: usize> {
-    value: [f64; K],
-    size: [f64; K],
-    uncertain: [f64; K],
-}
-
-/// A polynomial by its coefficients times their multiplicities, so that products are sums over sums of indices.
-struct Polynomial<const K: usize> {
-    degrees: SolidDegrees,
-    terms: Vec<Term<K>>,
-    /// So many roundings, at most, lie on the way of a contribution.
-    roundings: f64,
-}
-
-impl Polynomial<4> {
-    /// Without the weight.
-    fn narrowed(&self) -> Polynomial<3> {
-        let narrow = |[x, y, z, _]: [f64; 4]| [x, y, z];
-        let terms = self.terms.iter().map(|t| Term {
-            value: narrow(t.value),
-            size: narrow(t.size),
-            uncertain: narrow(t.uncertain),
-        });
-        Polynomial { degrees: self.degrees, terms: terms.collect(), roundings: self.roundings }
+/// The coefficients with their bounds.
+fn finished(determinant: Polynomial<1>, exponent: i32, rounded: bool) -> JacobianCoefficients {
+    let Polynomial { degrees, terms, roundings } = determinant;
+    // The bounds themselves are rounded: by much less than a thousandth.
+    let (per_size, per_uncertain) =
+        (1.001 * UNIT_ROUNDOFF * (roundings + 2.0), 1.001 * UNIT_ROUNDOFF * INPUT_ROUNDINGS);
+    let (mut values, mut rounding, mut tolerances) = (vec![], vec![], vec![]);
+    for (term, index) in terms.iter().zip(degrees.indices()) {
+        let multiplicity = degrees.multiplicity(index);
+        let own = (per_size * term.size[0] + UNDERFLOW) / multiplicity;
+        let tolerance = own + per_uncertain * term.uncertain[0] / multiplicity;
+        values.push(term.value[0] / multiplicity);
+        rounding.push(if rounded { tolerance } else { own });
+        tolerances.push(tolerance);
     }
-}
-
-impl Polynomial<1> {
-    fn finished(self, scale: Scale) -> JacobianCoefficients {
-        let Self { degrees, terms, roundings } = self;
-        // The bounds themselves are rounded: by much less than a thousandth.
-        let (per_size, per_uncertain) =
-            (1.001 * UNIT_ROUNDOFF * (roundings + 2.0), 1.001 * UNIT_ROUNDOFF * INPUT_ROUNDINGS);
-        let (mut values, mut rounding, mut tolerances) = (vec![], vec![], vec![]);
-        for (term, index) in terms.iter().zip(degrees.indices()) {
-            let multiplicity = degrees.multiplicity(index);
-            let own = (per_size * term.size[0] + UNDERFLOW) / multiplicity;
-            let tolerance = own + per_uncertain * term.uncertain[0] / multiplicity;
-            values.push(term.value[0] / multiplicity);
-            rounding.push(if scale.rounded { tolerance } else { own });
-            tolerances.push(tolerance);
-        }
-        JacobianCoefficients { degrees, values, rounding, tolerances, exponent: scale.exponent }
-    }
-}
-
-/// The minors `aᵢ bⱼ − aⱼ bᵢ` of two columns.
-fn minors<const K: usize>(
-    a: &Polynomial<4>,
-    b: &Polynomial<4>,
-    pairs: &[(usize, usize); K],
-) -> Polynomial<K> {
-    convolution(a, b, 2.0, |sum, a, b| {
-        for (k, &(i, j)) in pairs.iter().enumerate() {
-            sum.value[k] += a.value[i] * b.value[j] - a.value[j] * b.value[i];
-            sum.size[k] += a.size[i] * b.size[j] + a.size[j] * b.size[i];
-            sum.uncertain[k] += a.uncertain[i] * b.size[j] + a.size[i] * b.uncertain[j];
-            sum.uncertain[k] += a.uncertain[j] * b.size[i] + a.size[j] * b.uncertain[i];
-        }
-    })
-}
-
-/// `factor Σ ± aₖ b_{order(k)}`.
-fn contract<const K: usize>(
-    a: &Polynomial<K>,
-    b: &Polynomial<K>,
-    order: [(usize, f64); K],
-    factor: f64,
-) -> Polynomial<1> {
-    let mut product = convolution(a, b, 1.0 + K as f64, |sum: &mut Term<1>, a, b| {
-        let mut value = 0.0;
-        for (k, &(other, sign)) in order.iter().enumerate() {
-            value += sign * (a.value[k] * b.value[other]);
-            sum.size[0] += a.size[k] * b.size[other];
-            sum.uncertain[0] += a.uncertain[k] * b.size[other] + a.size[k] * b.uncertain[other];
-        }
-        sum.value[0] += value;
-    });
-    for term in &mut product.terms {
-        term.value[0] *= factor;
-        term.size[0] *= factor.abs();
-        term.uncertain[0] *= factor.abs();
-    }
-    product.roundings += 1.0;
-    product
-}
-
-/// The product of two polynomials by any bilinear `add` that takes `steps` roundings.
-fn convolution<const A: usize, const B: usize, const K: usize>(
-    a: &Polynomial<A>,
-    b: &Polynomial<B>,
-    steps: f64,
-    mut add: impl FnMut(&mut Term<K>, &Term<A>, &Term<B>),
-) -> Polynomial<K> {
-    let degrees = a.degrees.times(b.degrees);
-    let [_, m, n] = degrees.along();
-    // Places in a box that holds every index: there places of products are sums of places.
-    let place = |[i, j, k]: [usize; 3]| (i * (m + 1) + j) * (n + 1) + k;
-    let boxed = |degrees: SolidDegrees| degrees.indices().into_iter().map(place).collect::<Vec<_>>();
-    let (of_a, of_b, of_product) = (boxed(a.degrees), boxed(b.degrees), boxed(degrees));
-    let zero = Term { value: [0.0; K], size: [0.0; K], uncertain: [0.0; K] };
-    let mut sums = vec![zero; of_product.iter().fold(0, |most, &p| most.max(p)) + 1];
-    for (a, &at) in a.terms.iter().zip(&of_a) {
-        for (b, &shift) in b.terms.iter().zip(&of_b) {
-            add(&mut sums[at + shift], a, b);
-        }
-    }
-    let meeting = a.terms.len().min(b.terms.len()) as f64;
-    let roundings = a.roundings + b.roundings + steps + meeting + beyond_exact(degrees);
-    Polynomial { degrees, terms: of_product.iter().map(|&p| sums[p]).collect(), roundings }
+    JacobianCoefficients { degrees, values, rounding, tolerances, exponent }
 }

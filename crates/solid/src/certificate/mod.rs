@@ -3,10 +3,11 @@
 mod determinant;
 mod feature;
 mod net;
+pub(crate) mod product;
 mod sign;
 mod subdivision;
 mod trilinear;
-mod weight;
+pub(crate) mod weight;
 
 use casteljau_bernstein::glam::DVec3;
 use casteljau_shape::ControlPoint;
@@ -16,7 +17,7 @@ pub use feature::Feature;
 pub use net::{SolidDegrees, SolidNet};
 
 use crate::SolidError;
-use determinant::scaled;
+pub(crate) use determinant::{center, exponent, jacobian, scaled};
 use sign::{Coefficients, Sign};
 
 /// So many operations [`jacobian_verdict`] is given by those who have no wish of their own: some tenths of a second.

@@ -305,6 +305,46 @@ fn power_form(points: &[[BigInt; 4]], component: usize, degrees: SolidDegrees) -
     sum
 }
 
+/// The coordinates of a polynomial solid, times a power of two, and that power.
+pub fn coordinates(points: &[DVec4], degrees: SolidDegrees) -> ([Polynomial; 3], BigRational) {
+    let integers = integers(points);
+    // The weights are 1: they tell the factor.
+    let factor = BigRational::from_integer(integers[0][3].clone());
+    ([0, 1, 2].map(|component| power_form(&integers, component, degrees)), factor)
+}
+
+impl Polynomial {
+    pub fn product(&self, other: &Self) -> Self {
+        self.times(other)
+    }
+
+    /// det of the partial derivatives of three polynomials.
+    pub fn jacobian(of: &[Self; 3]) -> Self {
+        let rows: Vec<Vec<Self>> =
+            (0..3).map(|axis| of.iter().map(|p| p.derivative(axis)).collect()).collect();
+        Self::determinant(&rows)
+    }
+
+    /// The integral over the domain, term by term.
+    pub fn integral(&self, domain: SolidDegrees) -> BigRational {
+        let factorial = |n: usize| (1..=n).map(BigInt::from).product::<BigInt>();
+        let mut sum = BigRational::zero();
+        for index in self.indices() {
+            let [i, j, k] = index;
+            let a = self.a[self.place(index)].clone();
+            let (above, below) = match domain {
+                SolidDegrees::Hexahedron(_) => (BigInt::one(), BigInt::from((i + 1) * (j + 1) * (k + 1))),
+                SolidDegrees::Tetrahedron(_) => {
+                    (factorial(i) * factorial(j) * factorial(k), factorial(i + j + k + 3))
+                }
+                SolidDegrees::Wedge(_) => (factorial(i) * factorial(j), factorial(i + j + 2) * (k + 1)),
+            };
+            sum += BigRational::new(a * above, below);
+        }
+        sum
+    }
+}
+
 /// A determinant with the sign of det J, in the parameters of the solid; and `w⁴ det J` = its value over 2 to some power.
 pub struct Determinant {
     pub degrees: SolidDegrees,

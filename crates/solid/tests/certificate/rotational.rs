@@ -125,7 +125,7 @@ fn any_meridians() {
 #[test]
 fn ball_and_fold() {
     let third = 1.0 / 3.0;
-    let half_circle = [[0.0, -1.0], [1.0, -1.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, z]| DVec3::new(x, 0.0, z));
+    let half_circle = [[0.0, -1.0], [2.0, -1.0], [2.0, 1.0], [0.0, 1.0]].map(|[x, z]| DVec3::new(x, 0.0, z));
     let got = verdict(&half_circle, &[1.0, third, third, 1.0], 4.0);
     let names: Vec<String> = got.exceptions().iter().map(ToString::to_string).collect();
     assert_eq!(names[..2], ["face w = 0", "face w = 1"]);

@@ -1,0 +1,12 @@
+//! Volume and moments: exact cases, closed forms, laws, and an exact referee.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)] // helpers of tests
+
+mod closed_forms;
+mod laws;
+#[path = "../certificate/referee.rs"]
+#[allow(dead_code)] // the certificate's share
+mod referee;
+#[path = "../certificate/support.rs"]
+#[allow(dead_code)] // the certificate's share
+mod support;
+mod truth;
