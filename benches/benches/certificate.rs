@@ -9,10 +9,22 @@
 #![allow(clippy::unwrap_used)]
 
 use casteljau_solid::geom::glam::{DVec3, DVec4};
-use casteljau_solid::{DEFAULT_OPERATIONS, SolidNet, jacobian_verdict};
+use casteljau_solid::{DEFAULT_OPERATIONS, SolidNet, jacobian_verdict, mass_properties};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 const SOLIDS: usize = 1000;
+
+/// A valid hexahedron whose det J has negative Bernstein coefficients, so that it must be cut.
+const BENT: [[f64; 3]; 8] = [
+    [0.21875, 0.333984375, 0.482421875],
+    [0.072265625, 0.248046875, 0.845703125],
+    [0.580078125, 1.06640625, -0.466796875],
+    [-0.099609375, 1.3388671875, 0.3291015625],
+    [1.53515625, 0.564453125, -0.6005859375],
+    [1.5986328125, -0.60546875, 0.982421875],
+    [0.392578125, 1.33203125, 0.20703125],
+    [0.53125, 0.59375, 1.3359375],
+];
 
 /// The k-th term of an evenly spread sequence in the cube from −1 to 1.
 fn spread(k: usize) -> DVec3 {
@@ -56,16 +68,35 @@ fn benches(criterion: &mut Criterion) {
         b.iter(|| assert_eq!(trilinear.iter().filter(|points| hexahedron(points, 1)).count(), SOLIDS));
     });
     group.throughput(Throughput::Elements(1));
-    // Two control points were moved until coefficients are negative: the general way, with subdivision.
-    let mut bent = cube(0, 1, 0.0);
-    (bent[7], bent[0]) = (DVec3::splat(0.4), DVec3::splat(0.3));
-    group.bench_function("bent trilinear hexahedron", |b| b.iter(|| hexahedron(&bent, 1)));
+    let bent = BENT.map(DVec3::from_array);
+    group.bench_function("bent trilinear hexahedron", |b| b.iter(|| assert!(hexahedron(&bent, 1))));
     let quadratic = cube(0, 2, 0.2);
     group.bench_function("triquadratic hexahedron", |b| b.iter(|| assert!(hexahedron(&quadratic, 2))));
     let ball = ball();
     group.bench_function("rational ball of degrees 2 × 2 × 3", |b| {
         let net = SolidNet::Hexahedron { points: &ball, degrees: [2, 2, 3] };
         b.iter(|| assert!(jacobian_verdict(&net, DEFAULT_OPERATIONS).unwrap().is_valid()));
+    });
+    let box_of_weights: Vec<DVec4> = cube(0, 1, 0.0)
+        .iter()
+        .enumerate()
+        .map(|(p, q)| q.extend(1.0) * [0.5, 1.0, 2.0, 1.5, 1.0, 0.7, 1.0, 1.2][p])
+        .collect();
+    let rational = SolidNet::Hexahedron { points: &box_of_weights, degrees: [1; 3] };
+    group.bench_function("rational trilinear hexahedron", |b| {
+        b.iter(|| assert!(jacobian_verdict(&rational, DEFAULT_OPERATIONS).unwrap().is_valid()));
+    });
+    group.finish();
+
+    let mut group = criterion.benchmark_group("moments");
+    group.bench_function("triquadratic hexahedron", |b| {
+        let net = SolidNet::Hexahedron { points: &quadratic, degrees: [2; 3] };
+        b.iter(|| mass_properties(&net, 1e-12).unwrap().volume);
+    });
+    group.sample_size(20);
+    group.bench_function("rational ball of degrees 2 × 2 × 3", |b| {
+        let net = SolidNet::Hexahedron { points: &ball, degrees: [2, 2, 3] };
+        b.iter(|| mass_properties(&net, 1e-12).unwrap().volume);
     });
     group.finish();
 }

@@ -46,6 +46,15 @@ pub enum SolidError {
     },
 
     /// A rational solid whose weight function comes so near to zero that its sign was not found for the operations given.
+    ///
+    /// ```
+    /// use casteljau_solid::{SolidError, SolidNet, jacobian_verdict, geom::glam::DVec4};
+    /// // The weight is 9(u − ⅓)².
+    /// let points: Vec<DVec4> = (0..12).map(|p| DVec4::W * [1.0, -2.0, 4.0][p / 4]).collect();
+    /// let net = SolidNet::Hexahedron { points: &points, degrees: [2, 1, 1] };
+    /// let refused = jacobian_verdict(&net, 1_000_000);
+    /// assert!(matches!(refused, Err(SolidError::WeightUndecided { at: [u, ..] }) if (u - 1.0 / 3.0).abs() < 1e-3));
+    /// ```
     #[error("the sign of the weight near the parameters {at:?} is not decided")]
     WeightUndecided {
         /// Parameters.

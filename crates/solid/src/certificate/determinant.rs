@@ -163,10 +163,10 @@ impl Points {
             for axis in 0..3 {
                 let (shift, before) = (center[axis] * p.w, p[axis]);
                 p[axis] = before - shift;
-                // Both steps are exact where the solid lies on a grid that is coarse enough.
-                let exact = f64::mul_add(center[axis], p.w, -shift) == 0.0
-                    && before - p[axis] == shift
-                    && p[axis] + shift == before;
+                // Both steps are exact where the solid lies on a grid that is coarse enough (Knuth's error of a sum).
+                let back = before - p[axis];
+                let lost = (before - (p[axis] + back)) + (back - shift);
+                let exact = f64::mul_add(center[axis], p.w, -shift) == 0.0 && lost == 0.0;
                 rounded |= !exact;
             }
         }
@@ -210,7 +210,7 @@ impl Points {
             let value = (p * weight).to_array();
             Term { value, size: value.map(f64::abs), uncertain: (e * weight).to_array() }
         });
-        Polynomial { degrees: lower, terms: terms.collect(), roundings: 3.0 + beyond_exact(lower) }
+        Polynomial { degrees: lower, terms: terms.collect(), roundings: 5.0 + beyond_exact(lower) }
     }
 }
 
@@ -243,7 +243,7 @@ fn finished(determinant: Polynomial<1>, exponent: i32, rounded: bool) -> Jacobia
     let Polynomial { degrees, terms, roundings } = determinant;
     // The bounds themselves are rounded: by much less than a thousandth.
     let (per_size, per_uncertain) =
-        (1.001 * UNIT_ROUNDOFF * (roundings + 2.0), 1.001 * UNIT_ROUNDOFF * INPUT_ROUNDINGS);
+        (1.001 * UNIT_ROUNDOFF * (roundings + 4.0), 1.001 * UNIT_ROUNDOFF * INPUT_ROUNDINGS);
     let (mut values, mut rounding, mut tolerances) = (vec![], vec![], vec![]);
     for (term, index) in terms.iter().zip(degrees.indices()) {
         let multiplicity = degrees.multiplicity(index);

@@ -132,8 +132,10 @@ pub fn jacobian_verdict<P: ControlPoint>(
         Sign::PositiveExcept(features) => JacobianVerdict::PositiveExcept(features),
         Sign::NotPositive { witness, value } => {
             let weight = if P::RATIONAL { weight::value(net, witness) } else { 1.0 };
-            let value = scaled(value, exponent) / weight / weight / weight / weight;
-            JacobianVerdict::Invalid { witness, value: value.clamp(f64::MIN, f64::MAX) }
+            let scaled = scaled(value, exponent) / weight / weight / weight / weight;
+            // Negative stays negative, whatever the size.
+            let nearest = if value < 0.0 { -f64::MIN_POSITIVE } else { 0.0 };
+            JacobianVerdict::Invalid { witness, value: scaled.clamp(f64::MIN, nearest) }
         }
         Sign::Undecided { near, least, largest } => JacobianVerdict::Undecided {
             near,

@@ -78,7 +78,7 @@ impl<'a, P: ControlPoint> SolidNet<'a, P> {
         }
         for (place, p) in self.points().iter().enumerate() {
             for (axis, &value) in p.components().iter().enumerate() {
-                if !(value.abs() <= LARGEST_COORDINATE) {
+                if value.is_nan() || value.abs() > LARGEST_COORDINATE {
                     return Err(ShapeError::Coordinate { place, axis, value }.into());
                 }
             }

@@ -9,6 +9,10 @@ use super::JacobianVerdict;
 /// product, a sum of four; and some for the bound itself.
 const ROUNDINGS: f64 = 16.0;
 
+/// Beyond these, products may leave the range of numbers: the general way scales first.
+const SMALLEST: f64 = 1e-250;
+const LARGEST: f64 = 1e250;
+
 /// The verdict where the coefficients give it at once.
 ///
 /// The bounds are the same for all coefficients, made of the largest edges: a solid much smaller at one end than at the
@@ -23,7 +27,11 @@ pub(super) fn verdict(points: &[DVec3; 8]) -> Option<JacobianVerdict> {
         |edges: &[DVec3; 4]| edges[0].abs().max(edges[1].abs()).max(edges[2].abs().max(edges[3].abs()));
     let (mu, mv, mw) = (largest(&u), largest(&v), largest(&w));
     let (vw, wu, uv) = (permanents(mv, mw), permanents(mw, mu), permanents(mu, mv));
-    let rounding = ROUNDINGS * UNIT_ROUNDOFF * mu.dot(vw);
+    let scale = mu.dot(vw);
+    if !(SMALLEST..LARGEST).contains(&scale) {
+        return None;
+    }
+    let rounding = ROUNDINGS * UNIT_ROUNDOFF * scale;
 
     // Twice the coefficients' numerators: sums over a + a′ = i, b + b′ = j, c + c′ = k of det(U_bc, V_ac′, W_a′b′).
     let mut sums = [[[0.0; 3]; 3]; 3];
@@ -45,8 +53,7 @@ pub(super) fn verdict(points: &[DVec3; 8]) -> Option<JacobianVerdict> {
             for (k, sum) in row.iter().enumerate() {
                 const SHARE: [f64; 3] = [1.0, 0.5, 1.0];
                 let value = sum * (SHARE[i] * SHARE[j] * SHARE[k]);
-                // A sum that is no number must not pass for positive.
-                least = if value > least { least } else { value };
+                least = least.min(value);
             }
         }
     }

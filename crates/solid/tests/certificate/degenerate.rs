@@ -175,6 +175,24 @@ fn size_and_place() {
     assert!(valid > 50 && invalid > 50, "{valid} {invalid}");
 }
 
+/// Determinants below and above the range of numbers keep their signs.
+#[test]
+fn sizes_at_the_ends_of_the_range() {
+    for size in [1e-130, 1e-100, 1e100, 1e139] {
+        let points: Vec<DVec3> = cube(1).iter().map(|&p| p * size).collect();
+        assert_eq!(hexahedron(&points, 1), JacobianVerdict::Positive);
+        let lifted: Vec<DVec4> = points.iter().map(|p| p.extend(1.0)).collect();
+        assert_eq!(rational(&lifted, 1), JacobianVerdict::Positive);
+        let mirrored: Vec<DVec3> = points.iter().map(|p| DVec3::new(-p.x, p.y, p.z)).collect();
+        let lifted: Vec<DVec4> = mirrored.iter().map(|p| p.extend(1.0)).collect();
+        for verdict in [hexahedron(&mirrored, 1), rational(&lifted, 1)] {
+            assert!(
+                matches!(verdict, JacobianVerdict::Invalid { value, .. } if value < 0.0 && value.is_finite())
+            );
+        }
+    }
+}
+
 #[test]
 fn weights_with_zeros() {
     // 1 at all corners but −1 in the middle of an edge: zero on the way there.

@@ -1,4 +1,5 @@
 //! Nets of solids, and numbers by chance.
+#![allow(dead_code)] // every test file uses its own share of this
 
 use std::path::PathBuf;
 

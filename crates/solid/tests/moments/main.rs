@@ -3,10 +3,8 @@
 
 mod closed_forms;
 mod laws;
-#[path = "../certificate/referee.rs"]
-#[allow(dead_code)] // the certificate's share
+#[path = "../certificate/referee/mod.rs"]
 mod referee;
 #[path = "../certificate/support.rs"]
-#[allow(dead_code)] // the certificate's share
 mod support;
 mod truth;
