@@ -1,10 +1,18 @@
-//! The sign of det J over solids, on one thread.
+//! The sign of det J over solids, and their volumes and moments, on one thread.
 //!
 //! | benchmark | limit | measured | why |
 //! | --- | --- | --- | --- |
-//! | `certificate/trilinear hexahedra` | 1 µs a solid | … | … |
+//! | `certificate/trilinear hexahedra` | 1 µs a solid | 0.12 µs | 16 cross and 48 dot products, no allocation |
+//! | `certificate/bent trilinear hexahedron` | 50 µs | 5.9 µs | negative coefficients: bounds for each, then cuts |
+//! | `certificate/rational trilinear hexahedron` | 50 µs | 5.9 µs | 48 coefficients, each with its bounds |
+//! | `certificate/triquadratic hexahedron` | 200 µs | 19 µs | 216 coefficients |
+//! | `certificate/rational ball of degrees 2 × 2 × 3` | 2 ms | 0.14 ms | 672 coefficients |
+//! | `moments/triquadratic hexahedron` | 1 ms | 0.08 ms | 216 coefficients times 125 products of coordinates |
+//! | `moments/rational ball of degrees 2 × 2 × 3` | 20 ms | 2.8 ms | Gauss's rule in cells of 4096 nodes |
 //!
 //! The trilinear hexahedra are unit cubes whose corners were moved by up to 0.2 in each direction, all valid.
+//! Measured is the fastest of 100 samples on a core that others used too; the medians were 2.5 times that. With
+//! `cargo bench -p casteljau-benches --bench certificate`.
 
 #![allow(clippy::unwrap_used)]
 

@@ -84,4 +84,21 @@ pub enum SolidError {
         /// The number of cells that were looked at.
         cells: usize,
     },
+
+    /// A solid of so high degrees that its Jacobian determinant is not expanded: it would take minutes.
+    ///
+    /// ```
+    /// use casteljau_solid::{SolidError, SolidNet, jacobian_verdict, geom::glam::DVec3};
+    /// let points = vec![DVec3::ZERO; 40 * 40 * 40];
+    /// let net = SolidNet::Hexahedron { points: &points, degrees: [39; 3] };
+    /// let refused = jacobian_verdict(&net, 1000);
+    /// assert_eq!(refused, Err(SolidError::Coefficients { needed: 118 * 118 * 118, limit: 1_000_000 }));
+    /// ```
+    #[error("the Jacobian determinant has up to {needed} coefficients, more than {limit}")]
+    Coefficients {
+        /// The number of coefficients, at most.
+        needed: usize,
+        /// The largest number served.
+        limit: usize,
+    },
 }

@@ -37,13 +37,14 @@ impl JacobianCoefficients {
     /// The coefficients for a solid.
     ///
     /// Error: each is right to its [`rounding`](Self::rounding). Cost: one multiplication for each pair of points and
-    /// component in three products, and three times as many for the bounds: 10 µs for a trilinear hexahedron, 0.1 ms for
-    /// one of degree 2.
+    /// component in three products, and three times as many for the bounds: some µs for a trilinear
+    /// hexahedron, 20 µs for one of degree 2.
     ///
     /// # Errors
-    /// [`SolidError::NetLength`] and [`SolidError::Shape`] for a net that is none.
+    /// [`SolidError::NetLength`] and [`SolidError::Shape`] for a net that is none, [`SolidError::Coefficients`].
     pub fn new<P: ControlPoint>(net: &SolidNet<'_, P>) -> Result<Self, SolidError> {
         net.check()?;
+        net.degrees().check_determinant(P::RATIONAL)?;
         Ok(Self::of(net))
     }
 

@@ -85,12 +85,14 @@ impl JacobianVerdict {
 /// flat, invalid with the value 0. `Positive` and a negative witness are true of the very numbers given.
 ///
 /// Parts are cut in Bernstein form, the worst first, until all are decided or so many `operations` (multiplications,
-/// about) are spent: the same answer on every machine. Cost: a trilinear polynomial hexahedron mostly below 0.4 µs; others
-/// that of their coefficients, and each cut some passes through these.
+/// about) are spent: the same answer on every machine. Never decided are zeros that touch from above inside the solid or in
+/// the middle of a feature, and zeros of a higher order on a feature where coefficients beside it stay negative in all
+/// parts. Cost: a trilinear polynomial hexahedron mostly below 0.4 µs; others that of their coefficients, and each cut some
+/// passes through these.
 ///
 /// # Errors
-/// [`SolidError::NetLength`] and [`SolidError::Shape`] for a net that is none; [`SolidError::WeightZero`] where the weight
-/// of a rational solid vanishes, [`SolidError::WeightUndecided`] where that could not be found out. Weights may have any
+/// [`SolidError::NetLength`] and [`SolidError::Shape`] for a net that is none; [`SolidError::Coefficients`] for degrees about
+/// above 30, 20 for rational solids; [`SolidError::WeightZero`] where the weight of a rational solid vanishes, [`SolidError::WeightUndecided`] where that could not be found out. Weights may have any
 /// sign as long as their function has one.
 ///
 /// ```
@@ -120,6 +122,7 @@ pub fn jacobian_verdict<P: ControlPoint>(
     {
         return Ok(verdict);
     }
+    net.degrees().check_determinant(P::RATIONAL)?;
     if P::RATIONAL {
         weight::check_one_sign(net, operations)?;
     }

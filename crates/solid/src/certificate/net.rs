@@ -87,7 +87,23 @@ impl<'a, P: ControlPoint> SolidNet<'a, P> {
     }
 }
 
+/// Determinants with more coefficients than this are not expanded.
+const MOST_COEFFICIENTS: usize = 1_000_000;
+
 impl SolidDegrees {
+    /// Refuses degrees whose determinant has too many coefficients: it is of less than three times the degrees, or four
+    /// times those of a rational solid.
+    pub(crate) fn check_determinant(self, rational: bool) -> Result<(), SolidError> {
+        let factor = if rational { 4 } else { 3 };
+        let product = match self {
+            Self::Hexahedron(degrees) => Self::Hexahedron(degrees.map(|d| factor * d)),
+            Self::Tetrahedron(n) => Self::Tetrahedron(factor * n),
+            Self::Wedge(degrees) => Self::Wedge(degrees.map(|d| factor * d)),
+        };
+        let (needed, limit) = (product.count(), MOST_COEFFICIENTS);
+        if needed > limit { Err(SolidError::Coefficients { needed, limit }) } else { Ok(()) }
+    }
+
     /// The greatest exponent of each of the three parameters.
     #[must_use]
     pub const fn along(self) -> [usize; 3] {

@@ -63,8 +63,8 @@ impl MassProperties {
 /// cell, of which a solid with weights of one size needs 3, one with wild ones hundreds.
 ///
 /// # Errors
-/// [`SolidError::NetLength`] and [`SolidError::Shape`] for a net that is none or a `relative` not between 0 and 1; for rational
-/// solids [`SolidError::WeightZero`], [`SolidError::WeightUndecided`], and [`SolidError::Moments`] where the accuracy was not
+/// [`SolidError::NetLength`] and [`SolidError::Shape`] for a net that is none or a `relative` not between 0 and 1;
+/// [`SolidError::Coefficients`] for degrees about above 30 of a polynomial solid; for rational solids [`SolidError::WeightZero`], [`SolidError::WeightUndecided`], and [`SolidError::Moments`] where the accuracy was not
 /// reached.
 ///
 /// ```
@@ -88,6 +88,7 @@ pub fn mass_properties<P: ControlPoint>(
     let points: Vec<_> = net.points().iter().map(|p| p.homogeneous()).collect();
     let reference = DVec3::from(center(&points));
     if !P::RATIONAL {
+        net.degrees().check_determinant(false)?;
         return Ok(polynomial::integrate(net, reference));
     }
     weight::check_one_sign(net, DEFAULT_OPERATIONS)?;

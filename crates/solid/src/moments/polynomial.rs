@@ -6,7 +6,7 @@ use casteljau_shape::ControlPoint;
 
 use super::{Integrals, MassProperties, assembled};
 use crate::certificate::product::{Polynomial, Term, beyond_exact, convolution};
-use crate::certificate::{SolidNet, exponent, jacobian};
+use crate::certificate::{SolidDegrees, SolidNet, exponent, jacobian};
 
 /// The products of two coordinates, in the order of the integrals.
 const PAIRS: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
@@ -49,14 +49,22 @@ pub(super) fn integrate<P: ControlPoint>(net: &SolidNet<'_, P>, reference: DVec3
 fn integral_of_product<const K: usize>(a: &Polynomial<K>, b: &Polynomial<1>) -> ([f64; K], [f64; K]) {
     let degrees = a.degrees.times(b.degrees);
     let share = degrees.measure() / degrees.count() as f64;
+    // As in products of polynomials: in a box that holds every index, places add up.
+    let [_, m, n] = degrees.along();
+    let place = |[i, j, k]: [usize; 3]| (i * (m + 1) + j) * (n + 1) + k;
+    let boxed = |degrees: SolidDegrees| degrees.indices().into_iter().map(place).collect::<Vec<_>>();
+    let (of_a, of_b) = (boxed(a.degrees), boxed(b.degrees));
+    let indices = degrees.indices();
+    let mut inverse = vec![0.0; indices.iter().fold(0, |most, &index| most.max(place(index))) + 1];
+    for index in indices {
+        inverse[place(index)] = 1.0 / degrees.multiplicity(index);
+    }
     let (mut sums, mut sizes) = ([0.0; K], [0.0; K]);
-    let of_b = b.degrees.indices();
-    for (a, i) in a.terms.iter().zip(a.degrees.indices()) {
+    for (a, at) in a.terms.iter().zip(of_a) {
         let (mut value, mut size) = (0.0, 0.0);
-        for (b, j) in b.terms.iter().zip(&of_b) {
-            let multiplicity = degrees.multiplicity(std::array::from_fn(|axis| i[axis] + j[axis]));
-            value += b.value[0] / multiplicity;
-            size += b.size[0] / multiplicity;
+        for (b, shift) in b.terms.iter().zip(&of_b) {
+            value += b.value[0] * inverse[at + shift];
+            size += b.size[0] * inverse[at + shift];
         }
         for k in 0..K {
             sums[k] += a.value[k] * value;
@@ -64,7 +72,7 @@ fn integral_of_product<const K: usize>(a: &Polynomial<K>, b: &Polynomial<1>) -> 
         }
     }
     let added = (a.terms.len() + b.terms.len()) as f64;
-    let roundings = a.roundings + b.roundings + added + beyond_exact(degrees) + 6.0;
+    let roundings = a.roundings + b.roundings + added + beyond_exact(degrees) + 8.0;
     // The bound itself is rounded too, by much less than a thousandth.
     let errors = sizes.map(|size| 1.001 * roundings * UNIT_ROUNDOFF * size * share + 1e-300);
     (sums.map(|sum| sum * share), errors)
