@@ -78,4 +78,5 @@ pub use parametric::{Parameters, ParametricCurve, ParametricSurface, SurfaceDoma
 pub use patch::{BezierPatch, Patch, RationalPatch};
 pub use patch_operations::PatchEdge;
 pub use power::{PowerCurve, PowerPatch};
+pub use quadrature::gauss_rule;
 pub use triangle::{BezierTriangle, RationalTriangle, Triangle};

@@ -12,6 +12,18 @@ const GAUSS: [(f64, f64); 8] = [
     (0.9894009349916499, 0.027152459411754096),
 ];
 
+/// Gauss's rule of 16 points on `[0, 1]`, each with its weight: `∫ f ≈ Σ wᵢ f(xᵢ)`, exact for polynomials up to degree 31.
+///
+/// Weights add up to 1 within rounding; nodes come in pairs around ½, from the middle outward.
+///
+/// ```
+/// let sum: f64 = casteljau_shape::gauss_rule().map(|(x, w)| w * x.exp()).sum();
+/// assert!((sum - (1_f64.exp() - 1.0)).abs() < 1e-15);
+/// ```
+pub fn gauss_rule() -> impl Iterator<Item = (f64, f64)> {
+    gauss()
+}
+
 /// The rule brought to [0, 1]: node, weight.
 pub(crate) fn gauss() -> impl Iterator<Item = (f64, f64)> {
     GAUSS.iter().flat_map(|&(x, w)| [(0.5 - 0.5 * x, 0.5 * w), (0.5 + 0.5 * x, 0.5 * w)])

@@ -20,6 +20,7 @@ pub use casteljau_bernstein as bernstein;
 pub use casteljau_geom as geom;
 pub use casteljau_shape as shape;
 
+mod certificate;
 mod constructions;
 mod deformation;
 mod domain_tetrahedron;
@@ -27,13 +28,19 @@ mod error;
 mod hexahedron;
 mod hexahedron_operations;
 mod inversion;
+mod moments;
 mod parametric;
 mod tetrahedron;
 mod tetrahedron_operations;
 mod tight_box;
+mod validity;
 mod wedge;
 mod wedge_operations;
 
+pub use certificate::{
+    DEFAULT_OPERATIONS, Feature, JacobianCoefficients, JacobianVerdict, SolidDegrees, SolidNet,
+    jacobian_verdict,
+};
 pub use constructions::{ConstructedSolid, Construction, Twist, rational_rotation};
 pub use deformation::{Deformation, LARGEST_COMPOSED_DEGREE};
 pub use domain_tetrahedron::DomainTetrahedron;
@@ -41,6 +48,7 @@ pub use error::SolidError;
 pub use hexahedron::{BezierHexahedron, Hexahedron, RationalHexahedron};
 pub use hexahedron_operations::{Axis, HexahedronFace};
 pub use inversion::{Preimage, SolidLocator};
+pub use moments::{MassProperties, mass_properties};
 pub use parametric::{ParametricSolid, SolidDomain};
 pub use tetrahedron::{BezierTetrahedron, RationalTetrahedron, Tetrahedron};
 pub use wedge::{BezierWedge, RationalWedge, Wedge};

@@ -58,10 +58,10 @@ fn exact_radius(points: &[DVec3], weights: &[f64], t: f64) -> f64 {
     for (i, p) in points.iter().enumerate() {
         let mut b = exact(casteljau_bernstein::binomial(n, i)) * exact(weights[i]);
         for k in 0..n {
-            b = b * if k < i { exact(t) } else { rest.clone() };
+            b *= if k < i { exact(t) } else { rest.clone() };
         }
-        above = above + b.clone() * exact(p.x);
-        below = below + b;
+        above += b.clone() * exact(p.x);
+        below += b;
     }
     let ratio = above.fraction() / below.fraction();
     num_traits::ToPrimitive::to_f64(&ratio).unwrap()

@@ -43,7 +43,9 @@ fn ball() -> RationalHexahedron {
 
 #[track_caller]
 fn assert_found(locator: &mut SolidLocator, solid: &dyn ParametricSolid, p: DVec3) -> [f64; 3] {
-    let found = locator.locate(p).unwrap().unwrap_or_else(|| panic!("{p} is not found"));
+    let found = locator.locate(p).unwrap();
+    assert!(found.is_some(), "{p} is not found");
+    let found = found.unwrap();
     assert!(solid.domain().contains(found.parameters), "{:?} for {p}", found.parameters);
     let allowed = 1e-13 * locator.size() + 16.0 * U * p.abs().max_element();
     let residual = solid.try_point(found.parameters).unwrap().distance(p);
