@@ -2,7 +2,7 @@
 //! `(x² + y²)·(Z′R − ZR′)`.
 
 use casteljau_solid::bernstein::{restrict, value};
-use casteljau_solid::geom::glam::{DVec3, DVec4};
+use casteljau_solid::geom::glam::{DMat3, DVec3, DVec4};
 use casteljau_solid::{DEFAULT_OPERATIONS, Feature, JacobianVerdict, SolidNet, jacobian_verdict};
 
 use crate::support::{Chance, rotational};
@@ -133,4 +133,32 @@ fn ball_and_fold() {
     let fold = [[1.0, 0.0], [1.0, 2.0], [2.0, -1.0], [2.0, 1.0]].map(|[x, z]| DVec3::new(x, 0.0, z));
     let JacobianVerdict::Invalid { witness, value } = verdict(&fold, &[1.0; 4], 4.0) else { panic!() };
     assert!(value < 0.0 && witness[2] > 0.2 && witness[2] < 0.8, "{witness:?}");
+}
+
+/// About any axis anywhere: the control points are rounded by what the rotation and the distance make of them, and the
+/// edges are still found.
+#[test]
+fn turned_and_far_away() {
+    let mut chance = Chance(5);
+    for round in 0..300 {
+        let n = 1 + round % 4;
+        let mut z = 0.0;
+        let meridian: Vec<DVec3> = (0..=n)
+            .map(|_| {
+                z += chance.between(0.3, 1.0);
+                DVec3::new(chance.between(0.7, 1.0), chance.between(-0.3, 0.3), z)
+            })
+            .collect();
+        let weights: Vec<f64> = (0..=n).map(|_| chance.between(0.9, 1.1)).collect();
+        let turn = DMat3::from_axis_angle(chance.point(1.0).normalize(), chance.between(-3.0, 3.0));
+        let far = chance.point([1.0, 1e3, 1e6][round % 3]);
+        let points: Vec<DVec4> = rotational(&meridian, &weights, [1.0, 4.0][round % 2])
+            .iter()
+            .map(|p| (turn * (p.truncate() / p.w) + far, p.w))
+            .map(|(p, w)| (p * w).extend(w))
+            .collect();
+        let net = SolidNet::Hexahedron { points: &points, degrees: [2, 2, n] };
+        let got = jacobian_verdict(&net, DEFAULT_OPERATIONS).unwrap();
+        assert_eq!(got, JacobianVerdict::PositiveExcept(edges()), "round {round}: {points:?}");
+    }
 }
