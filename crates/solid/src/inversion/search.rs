@@ -46,6 +46,8 @@ pub(super) struct Search<D: Domain> {
     /// The largest number in the net, by coordinates and by weight.
     largest: f64,
     heaviest: f64,
+    /// What moving the origin may have done to a coefficient: the rounding of a product, where weights are not 1.
+    shift: f64,
     size: f64,
     prepared: Vec<Prepared<D::Cell>>,
 }
@@ -73,7 +75,10 @@ impl<D: Domain> Search<D> {
         let net: Vec<DVec4> = points.iter().map(|p| (p.xyz() - origin * p.w).extend(p.w)).collect();
         let largest = net.iter().map(|p| p.xyz().abs().max_element()).fold(0.0, f64::max);
         let heaviest = net.iter().map(|p| p.w.abs()).fold(0.0, f64::max);
-        let mut search = Self { domain, net, origin, largest, heaviest, size: 0.0, prepared: Vec::new() };
+        let exact = net.iter().all(|p| p.w == 1.0);
+        let shift = if exact { 0.0 } else { 2.0 * UNIT_ROUNDOFF * origin.abs().max_element() * heaviest };
+        let mut search =
+            Self { domain, net, origin, largest, heaviest, shift, size: 0.0, prepared: Vec::new() };
         let mut cells = vec![search.domain.whole()];
         let mut axis = 0;
         while cells.len() < PREPARED {
@@ -127,7 +132,7 @@ impl<D: Domain> Search<D> {
 
     /// A bound on the error of each coefficient of `wF − w·p` over a cell, for |p| ≤ `reach`.
     fn net_error(&self, reach: f64) -> f64 {
-        2.0 * rounding_bound(self.domain.degree(), 0, self.largest + reach * self.heaviest)
+        self.shift + 2.0 * rounding_bound(self.domain.degree(), 0, self.largest + reach * self.heaviest)
     }
 
     /// The derivative of the point by the parameters.
