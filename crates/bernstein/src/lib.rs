@@ -96,7 +96,8 @@ mod wedge;
 
 pub use basis::{basis, basis_barycentric, basis_derivatives};
 pub use batch::{
-    BatchPoint, CurveBatch, GridBatch, PatchBatch, TriangleBatch, elevate_many, subdivide_many, to_power_many,
+    BatchPoint, BoxBatch, BoxGridBatch, CurveBatch, GridBatch, PatchBatch, TetrahedronBatch, TriangleBatch,
+    WedgeBatch, elevate_many, subdivide_many, to_power_many,
 };
 pub use binomial::{MAX_DEGREE, binomial};
 pub use blossom::{blossom, blossom_tensor};

@@ -8,7 +8,7 @@ use num_traits::{One, Signed};
 use casteljau_bernstein::glam::{DVec2, DVec3, DVec4, Vec4Swizzles};
 use casteljau_bernstein::{BernsteinError, TriangleBatch, TriangleNet, last_barycentric, simplex_count};
 use support::U;
-use support::exact::{Hunter, Q, absolutes, assert_within, dot, exact, exacts, factor, integer};
+use support::exact::{Hunter, Q, absolutes, assert_within, dot, exact, exacts, factor, integer, rounds};
 use support::simplices::{basis, differentiated, floor};
 
 /// Orders (a, b) in the order of the buffers.
@@ -33,7 +33,7 @@ fn coordinates(at: DVec2) -> [Vec<Q>; 2] {
 #[test]
 fn against_exact_arithmetic() {
     let mut hunter = Hunter::new(31);
-    for case in 0..1500 {
+    for case in 0..rounds(1500) {
         // Above 40 there are no registers.
         let n = if case % 300 == 0 { 38 + case / 300 } else { hunter.below(8) };
         let net = hunter.numbers(simplex_count::<3>(n));
@@ -91,7 +91,7 @@ fn vertices_are_met_to_the_bit_and_single_evaluation_agrees() {
 #[test]
 fn rational_triangles_are_quotients() {
     let mut hunter = Hunter::new(32);
-    for _ in 0..300 {
+    for _ in 0..rounds(1000) {
         let n = 1 + hunter.below(6);
         let net: Vec<DVec4> = (0..simplex_count::<3>(n))
             .map(|_| DVec4::new(hunter.unit(), hunter.unit(), hunter.unit(), 0.5 + hunter.unit().abs()))

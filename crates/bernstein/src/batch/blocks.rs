@@ -55,3 +55,26 @@ pub(super) fn load<S: Lanes>(simd: S, parameters: &[f64], place: usize) -> S::f6
         }
     }
 }
+
+/// Pairs or triples of parameters from number `place` on, a register a component; lanes beyond the last repeat it.
+#[inline(always)]
+pub(super) fn load_tuples<S: Lanes, const N: usize>(
+    simd: S,
+    parameters: &[f64],
+    place: usize,
+) -> [S::f64s; N] {
+    let mut padded = [0.0; 3 * WIDTH];
+    let all = parameters.get(N * place..N * (place + S::F64_LANES)).unwrap_or_else(|| {
+        let rest = parameters.get(N * place..).unwrap_or_default();
+        padded[..rest.len()].copy_from_slice(rest);
+        if let Some(last) = rest.last_chunk::<N>() {
+            padded[rest.len()..].as_chunks_mut().0.fill(*last);
+        }
+        &padded
+    });
+    let mut numbers = [simd.splat_f64s(0.0); N];
+    for c in 0..N {
+        numbers[c] = simd.load(all, c * S::F64_LANES);
+    }
+    simd.deinterleave(numbers)
+}

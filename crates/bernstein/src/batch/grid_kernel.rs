@@ -8,11 +8,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::blocks::store;
 use super::grid::GridBatch;
-use super::grid_table::{self, Columns};
-use super::horner::Parameter;
+use super::grid_row::{Doubtful, jet, plain, rational};
+use super::grid_table::{self, Columns, TABULATED};
 use super::nets::Nets;
 use super::normal::unit_normal;
-use super::quotient::{is_tame, lane, largest_weight, scale, settle, surface, suspicious, uncertainty};
+use super::quotient::{is_tame, largest_weight, scale, uncertainty};
 use super::simd::{Job, Lanes};
 use crate::MAX_DEGREE;
 
@@ -58,7 +58,9 @@ impl<const K: usize, const KIND: u8, const N: usize> Job for Rows<'_, K, KIND, N
             if KIND == NORMALS {
                 scratch.normalize_first();
             }
-            scratch.multiply_by_binomials();
+            if KIND == RATIONAL || N != TABULATED {
+                scratch.multiply_by_binomials();
+            }
             let poles = Poles::new::<KIND>(u, v, net);
             for row in row..end {
                 let at = row - number * u.count;
@@ -69,9 +71,17 @@ impl<const K: usize, const KIND: u8, const N: usize> Job for Rows<'_, K, KIND, N
                 }
                 let place = (row - rows.start) * v.count;
                 match KIND {
-                    PLAIN => self.plain::<S, D>(simd, &scratch, place),
+                    PLAIN => plain::<S, _, D, K, N>(simd, v, &scratch, &mut self.0.out, place),
                     NORMALS => self.normals(simd, &scratch, place),
-                    _ => self.rational(simd, &scratch, place, [row, at], &poles),
+                    _ => {
+                        let bound = poles.possible.then(|| poles.bound * poles.u.spread(at));
+                        let doubtful = Doubtful { bound, bound_at: |column| poles.bound_at(at, column) };
+                        let found =
+                            rational::<S, _, _, 2, K, N>(simd, v, &scratch, &mut self.0.out, place, doubtful);
+                        if let Some(column) = found {
+                            self.0.pole.fetch_min(row * v.count + column, Ordering::Relaxed);
+                        }
+                    }
                 }
             }
             row = end;
@@ -79,135 +89,17 @@ impl<const K: usize, const KIND: u8, const N: usize> Job for Rows<'_, K, KIND, N
     }
 }
 
-// Lanes beyond the last column repeat it. They are stored where there is room, and overwritten by the next
-// row.
 impl<const K: usize, const KIND: u8, const N: usize> Rows<'_, K, KIND, N> {
-    #[inline(always)]
-    fn plain<S: Lanes, const D: usize>(&mut self, simd: S, scratch: &Nets, place: usize) {
-        let v = &self.0.grid.v;
-        for column in (0..v.count).step_by(S::F64_LANES) {
-            let t = v.parameter(simd, column);
-            let jet: [_; K] = if t.some {
-                jet::<S, D, K, N, true>(&t, scratch)
-            } else {
-                jet::<S, D, K, N, false>(&t, scratch)
-            };
-            for k in 0..K {
-                store(simd, self.0.out[k], place + column, jet[k]);
-            }
-        }
-    }
-
     #[inline(always)]
     fn normals<S: Lanes>(&mut self, simd: S, scratch: &Nets, place: usize) {
         let v = &self.0.grid.v;
         let inside = self.0.grid.u.inside && v.inside;
         for column in (0..v.count).step_by(S::F64_LANES) {
-            let t = v.parameter(simd, column);
-            let [point, du, dv] = if t.some {
-                jet::<S, 3, 3, N, true>(&t, scratch)
-            } else {
-                jet::<S, 3, 3, N, false>(&t, scratch)
-            };
+            let [point, du, dv] = jet::<S, 3, 3, N>(simd, v, column, scratch);
             store(simd, self.0.out[0], place + column, point);
             store(simd, self.0.out[1], place + column, unit_normal(simd, du, dv, inside));
         }
     }
-
-    /// `[row, at]` are the row's number among those of all nets, and in its own.
-    #[inline(always)]
-    fn rational<S: Lanes>(
-        &mut self,
-        simd: S,
-        scratch: &Nets,
-        place: usize,
-        [row, at]: [usize; 2],
-        poles: &Poles<'_>,
-    ) {
-        let v = &self.0.grid.v;
-        for column in (0..v.count).step_by(S::F64_LANES) {
-            let t = v.parameter(simd, column);
-            let inverse = v.inverse(simd, column);
-            let jet: [_; K] = if t.some {
-                homogeneous::<S, K, N, true>(simd, &t, inverse, scratch)
-            } else {
-                homogeneous::<S, K, N, false>(simd, &t, inverse, scratch)
-            };
-            let points = surface(simd, &jet);
-            for k in 0..K {
-                store(simd, self.0.out[k], place + column, points[k]);
-            }
-            if poles.possible {
-                // Σ C(n,j)|xʲ| is (1 + |x|)ⁿ.
-                let one = simd.splat_f64s(1.0);
-                let spread = simd.power(simd.add_f64s(one, simd.abs_f64s(t.quotient)), v.degree);
-                let least = simd.mul_f64s(simd.splat_f64s(poles.bound * poles.u.spread(at)), spread);
-                if simd.any(suspicious(simd, jet[0][3], &points, least)) {
-                    let denominator = simd.mul_f64s(jet[0][3], simd.power(t.base, v.degree));
-                    for l in 0..S::F64_LANES.min(v.count - column) {
-                        let bound = poles.bound_at(at, column + l);
-                        if settle(lane::<S>(denominator, l), bound, &mut self.0.out, place + column + l) {
-                            self.0.pole.fetch_min(row * v.count + column + l, Ordering::Relaxed);
-                        }
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// The first `K` partial derivatives in the order of [`partial_index`](crate::partial_index).
-#[inline(always)]
-fn jet<S: Lanes, const D: usize, const K: usize, const N: usize, const MIXED: bool>(
-    t: &Parameter<S>,
-    scratch: &Nets,
-) -> [[S::f64s; D]; K] {
-    let mut jet = [[t.simd.splat_f64s(0.0); D]; K];
-    // Written out: the compiler must see the orders to unroll what depends on them.
-    jet[0] = t.value::<D, MIXED>(scratch.curve::<D, N, 0>(0));
-    if K >= 3 {
-        jet[1] = t.value::<D, MIXED>(scratch.curve::<D, N, 0>(1));
-        jet[2] = t.value::<D, MIXED>(scratch.curve::<D, N, 1>(2));
-    }
-    if K >= 6 {
-        jet[3] = t.value::<D, MIXED>(scratch.curve::<D, N, 0>(3));
-        jet[4] = t.value::<D, MIXED>(scratch.curve::<D, N, 1>(4));
-        jet[5] = t.value::<D, MIXED>(scratch.curve::<D, N, 2>(5));
-    }
-    jet
-}
-
-/// Numerator and denominator with their derivatives, all divided by the same power of 1 − v or v, which the
-/// quotient rule does not notice.
-#[inline(always)]
-fn homogeneous<S: Lanes, const K: usize, const N: usize, const MIXED: bool>(
-    simd: S,
-    t: &Parameter<S>,
-    inverse: S::f64s,
-    scratch: &Nets,
-) -> [[S::f64s; 4]; K] {
-    let mut jet = [[simd.splat_f64s(0.0); 4]; K];
-    jet[0] = t.sum::<4, MIXED>(scratch.curve::<4, N, 0>(0));
-    if K >= 3 {
-        jet[1] = t.sum::<4, MIXED>(scratch.curve::<4, N, 0>(1));
-        jet[2] = times(simd, t.sum::<4, MIXED>(scratch.curve::<4, N, 1>(2)), inverse);
-    }
-    if K >= 6 {
-        jet[3] = t.sum::<4, MIXED>(scratch.curve::<4, N, 0>(3));
-        jet[4] = times(simd, t.sum::<4, MIXED>(scratch.curve::<4, N, 1>(4)), inverse);
-        let square = simd.mul_f64s(inverse, inverse);
-        jet[5] = times(simd, t.sum::<4, MIXED>(scratch.curve::<4, N, 2>(5)), square);
-    }
-    jet
-}
-
-/// A point of each lane times a number of each lane.
-#[inline(always)]
-fn times<S: Lanes>(simd: S, mut points: [S::f64s; 4], factor: S::f64s) -> [S::f64s; 4] {
-    for c in 0..4 {
-        points[c] = simd.mul_f64s(points[c], factor);
-    }
-    points
 }
 
 /// What is to be known of a rational net where its denominator may vanish.

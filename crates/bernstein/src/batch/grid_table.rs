@@ -7,6 +7,10 @@ use crate::{MAX_DEGREE, basis};
 /// Highest order of derivatives that batches have.
 pub(super) const MAX_ORDER: usize = 2;
 
+/// Columns of this degree have their basis tabulated, and so one operation less a component; of others it would not fit into
+/// the first cache.
+pub(super) const TABULATED: usize = 3;
+
 /// The rows u = constant: the Bernstein polynomials of degrees m, m − 1, m − 2.
 #[derive(Debug, Clone)]
 pub(super) struct Rows {
@@ -71,6 +75,8 @@ pub(super) struct Columns {
     reversed: Vec<f64>,
     /// Whether it is, anywhere in each block of [`WIDTH`] columns.
     some: Vec<bool>,
+    /// `Bⱼⁿ⁻ᵏ(v)` of order k at degree [`TABULATED`]: a block of [`WIDTH`] columns after the other, in each j by j.
+    basis: [Vec<f64>; MAX_ORDER + 1],
 }
 
 impl Columns {
@@ -81,6 +87,8 @@ impl Columns {
         let [low, high] = reversed_interval(degree);
         let is_reversed = |v: f64| low < v && v < high;
         let base = |v: f64| if is_reversed(v) { v } else { 1.0 - v };
+        let tabulated = if degree == TABULATED { &parameters[..] } else { &[] };
+        let basis = [0, 1, 2].map(|k| tabulate(tabulated, degree.saturating_sub(k)));
         let of = |number: &dyn Fn(f64) -> f64| parameters.iter().map(|&v| number(v)).collect::<Vec<_>>();
         Self {
             degree,
@@ -91,6 +99,7 @@ impl Columns {
             inverses: of(&|v| 1.0 / base(v)),
             reversed: of(&|v| f64::from(is_reversed(v))),
             some: parameters.chunks(WIDTH).map(|block| block.iter().any(|&v| is_reversed(v))).collect(),
+            basis,
             parameters,
         }
     }
@@ -108,6 +117,32 @@ impl Columns {
         }
     }
 
+    /// `Σⱼ Bⱼⁿ⁻ᵏ(v) cⱼ`, of order `B`, at the columns from `first` on, for columns of degree [`TABULATED`].
+    #[inline(always)]
+    pub(super) fn by_table<S: Lanes, const D: usize, const B: usize>(
+        &self,
+        simd: S,
+        first: usize,
+        curve: &[[f64; D]],
+    ) -> [S::f64s; D] {
+        const { assert!(B <= MAX_ORDER && B <= TABULATED) };
+        let height = TABULATED + 1 - B;
+        let block = &self.basis[B][first / WIDTH * height * WIDTH..][..height * WIDTH];
+        let mut sum = [simd.splat_f64s(0.0); D];
+        for j in 0..height {
+            let basis = simd.load(block, j * WIDTH + first % WIDTH);
+            for c in 0..D {
+                let coefficient = simd.splat_f64s(curve[j][c]);
+                sum[c] = if j == 0 {
+                    simd.mul_f64s(basis, coefficient)
+                } else {
+                    simd.mul_add_f64s(basis, coefficient, sum[c])
+                };
+            }
+        }
+        sum
+    }
+
     /// 1/base of the columns from `first` on.
     #[inline(always)]
     pub(super) fn inverse<S: Lanes>(&self, simd: S, first: usize) -> S::f64s {
@@ -120,6 +155,20 @@ impl Columns {
         basis(self.parameters[at], row);
         row
     }
+}
+
+/// The basis of a degree at whole blocks of parameters.
+fn tabulate(parameters: &[f64], degree: usize) -> Vec<f64> {
+    let mut table = vec![0.0; parameters.len() * (degree + 1)];
+    let mut column = [0.0; TABULATED + 1];
+    let blocks = table.chunks_exact_mut((degree + 1) * WIDTH).zip(parameters.chunks_exact(WIDTH));
+    for (block, parameters) in blocks {
+        for (l, &v) in parameters.iter().enumerate() {
+            basis(v, &mut column[..=degree]);
+            block.iter_mut().skip(l).step_by(WIDTH).zip(column).for_each(|(to, b)| *to = b);
+        }
+    }
+    table
 }
 
 fn are_inside(parameters: &[f64]) -> bool {

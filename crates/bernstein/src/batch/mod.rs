@@ -6,11 +6,13 @@
 //! | patches, one or thousands, on a grid of parameters | [`GridBatch`] |
 //! | one patch at many parameters without order | [`PatchBatch`] |
 //! | one triangle at many parameters without order | [`TriangleBatch`] |
+//! | tensor-product solids, one or many, on a grid of parameters | [`BoxGridBatch`] |
+//! | one solid at many parameters without order | [`BoxBatch`], [`TetrahedronBatch`], [`WedgeBatch`] |
 //! | many curves or nets cut, raised in degree, taken to the power basis | [`subdivide_many`], [`elevate_many`], [`to_power_many`] |
 //!
 //! **Layout.** Points are arrays of structures, `&mut [DVec3]` and the like, as callers hold them. Values and
-//! each kind of derivatives have a buffer of their own, in the order 1, d, d² and 1; ∂u, ∂v; ∂uu, ∂uv, ∂vv:
-//! `evaluate` takes as many buffers as are wanted. Use the buffers again: writing into fresh memory costs ten
+//! each kind of derivatives have a buffer of their own, in the order 1, d, d² and 1; ∂u, ∂v; ∂uu, ∂uv, ∂vv, of
+//! solids 1; ∂u, ∂v, ∂w: `evaluate` takes as many buffers as are wanted. Use the buffers again: writing into fresh memory costs ten
 //! times the arithmetic.
 //!
 //! **Instructions.** The widest registers are chosen at run time: AVX-512, AVX2 with FMA, or none. All of
@@ -28,21 +30,30 @@
 //!   leave the range of numbers (up to degree 9 the last number below 1 alone, 2⁻¹⁸ about 1 at degree 25),
 //!   and above degree 238 for all t > ½. Each parameter is decided on its own.
 //! - Grids contract the net to one curve a row and evaluate it so, the quotients being made once for each
-//!   column.
+//!   column; polynomial curves in space of degree 3 by the basis, which has its place in the first cache. Those
+//!   of solids contract twice, a layer first.
 //! - Scattered points take the scheme in both parameters up to a total degree of 9, and the basis up to
 //!   degree 31 in each; the basis, too, where u or v is 1 exactly. Above degree 31 they go one by one through
 //!   [`TensorNet::partials`](crate::TensorNet::partials).
 //! - Triangles take the powers of the barycentric coordinates up to degree 40, above go one by one through
 //!   [`TriangleNet::partials`](crate::SimplexNet::partials).
+//! - Solids take the scheme in three quotients up to a total degree of 60, but the powers of all coordinates
+//!   where a quotient is so large that its powers might leave the range of numbers: up to degree 9 next to
+//!   u = 1, v = 1, w = 1 of a box, λ₃ = 0 of a wedge and λ₄ = 0 of a tetrahedron alone. Such places take some
+//!   ten times as long: turn a simplex so that its last face is not the one looked at. Degrees above go one by
+//!   one.
 //!
 //! **Limits.** Any finite parameter, degrees up to [`MAX_DEGREE`](crate::MAX_DEGREE), coordinates up to
 //! 10¹⁵⁰. The error is the crate's, `4(n + 2k + 2)·u·scale`, for parameters outside `[0, 1]` too.
 
 mod blocks;
+mod box_grid;
+mod box_grid_kernel;
 mod coefficients;
 mod curve;
 mod grid;
 mod grid_kernel;
+mod grid_row;
 mod grid_table;
 mod horner;
 mod many;
@@ -55,16 +66,25 @@ mod quotient;
 mod rational;
 mod scattered;
 mod simd;
+mod solid;
+mod solid_box;
+mod solid_kernel;
+mod solid_tetrahedron;
+mod solid_wedge;
 #[cfg(test)]
 mod tests;
 mod triangle;
 
 use pulp::bytemuck::Pod;
 
+pub use self::box_grid::BoxGridBatch;
 pub use self::curve::CurveBatch;
 pub use self::grid::GridBatch;
 pub use self::many::{elevate_many, subdivide_many, to_power_many};
 pub use self::patch::PatchBatch;
+pub use self::solid_box::BoxBatch;
+pub use self::solid_tetrahedron::TetrahedronBatch;
+pub use self::solid_wedge::WedgeBatch;
 pub use self::triangle::TriangleBatch;
 use crate::glam::{DVec2, DVec3, DVec4};
 use crate::{BernsteinError, Point};

@@ -3,6 +3,7 @@
 // As in `simd.rs`: plain loops over registers.
 #![allow(clippy::needless_range_loop)]
 
+use super::grid_row::Curves;
 use super::grid_table::Rows;
 use super::simd::{Lanes, WIDTH};
 use crate::{binomial, partial_index};
@@ -140,23 +141,30 @@ impl Nets {
         let basis = &rows.basis(A, at)[..height];
         let net = &self.of_order[place][..height * columns * D + WIDTH];
         let curve = &mut self.curves[place][..columns * D + WIDTH];
-        let mut x = 0;
-        while x < columns * D {
-            let mut sum = simd.splat_f64s(0.0);
-            for i in 0..height {
-                let numbers = simd.load(net, i * columns * D + x);
-                sum = simd.mul_add_f64s(simd.splat_f64s(basis[i]), numbers, sum);
-            }
-            S::as_mut_simd_f64s(&mut curve[x..x + S::F64_LANES]).0[0] = sum;
-            x += S::F64_LANES;
-        }
+        combine(simd, basis, net, columns * D, curve);
     }
+}
 
-    /// The coefficients of the order at `place`, which is `B` in v, of the row that was contracted last.
+impl Curves for Nets {
+    /// Those of the row that was contracted last.
     #[inline(always)]
-    pub(super) fn curve<const D: usize, const N: usize, const B: usize>(&self, place: usize) -> &[[f64; D]] {
+    fn curve<const D: usize, const N: usize, const B: usize>(&self, place: usize) -> &[[f64; D]] {
         let degree = if N == ANY { self.degrees[1] } else { N };
         &self.curves[place].as_chunks().0[..(degree + 1).saturating_sub(B)]
+    }
+}
+
+/// `Σᵢ bᵢ nᵢₓ` of a net with rows of `width` numbers; net and result are followed by [`WIDTH`] numbers that mean nothing.
+#[inline(always)]
+pub(super) fn combine<S: Lanes>(simd: S, basis: &[f64], net: &[f64], width: usize, out: &mut [f64]) {
+    let mut x = 0;
+    while x < width {
+        let mut sum = simd.splat_f64s(0.0);
+        for i in 0..basis.len() {
+            sum = simd.mul_add_f64s(simd.splat_f64s(basis[i]), simd.load(net, i * width + x), sum);
+        }
+        S::as_mut_simd_f64s(&mut out[x..x + S::F64_LANES]).0[0] = sum;
+        x += S::F64_LANES;
     }
 }
 

@@ -155,19 +155,19 @@ impl View<'_> {
     ) -> Result<(), BernsteinError> {
         // Bicubic patches in space have kernels of their own, with unrolled loops.
         if dimension == 3 && self.degrees == [3, 3] {
-            scattered::plain(Tensor::<BICUBIC>(self), dimension, parameters, out)
+            scattered::surface::<_, false>(Tensor::<BICUBIC>(self), dimension, parameters, out)
         } else if self.degrees[0] + self.degrees[1] <= ONE_SIDED {
-            scattered::plain(Tensor::<QUOTIENTS>(self), dimension, parameters, out)
+            scattered::surface::<_, false>(Tensor::<QUOTIENTS>(self), dimension, parameters, out)
         } else {
-            scattered::plain(Tensor::<BASIS>(self), dimension, parameters, out)
+            scattered::surface::<_, false>(Tensor::<BASIS>(self), dimension, parameters, out)
         }
     }
 
     fn rational(self, parameters: &[f64], out: &mut [&mut [f64]]) -> Result<(), BernsteinError> {
         if self.degrees[0] + self.degrees[1] <= ONE_SIDED {
-            scattered::rational(Tensor::<QUOTIENTS>(self), parameters, out)
+            scattered::surface::<_, true>(Tensor::<QUOTIENTS>(self), 4, parameters, out)
         } else {
-            scattered::rational(Tensor::<BASIS>(self), parameters, out)
+            scattered::surface::<_, true>(Tensor::<BASIS>(self), 4, parameters, out)
         }
     }
 }
@@ -176,7 +176,7 @@ impl View<'_> {
 #[derive(Clone, Copy)]
 struct Tensor<'a, const WAY: u8>(View<'a>);
 
-impl<const WAY: u8> Form for Tensor<'_, WAY> {
+impl<const WAY: u8> Form<2> for Tensor<'_, WAY> {
     type At<S: Lanes> = At<S>;
 
     fn net(&self) -> &[f64] {
@@ -193,7 +193,7 @@ impl<const WAY: u8> Form for Tensor<'_, WAY> {
     }
 
     #[inline(always)]
-    fn move_to<S: Lanes>(&self, simd: S, at: &mut At<S>, u: S::f64s, v: S::f64s) {
+    fn move_to<S: Lanes>(&self, simd: S, at: &mut At<S>, [u, v]: [S::f64s; 2]) {
         *at = At::new(simd, u, v);
     }
 
@@ -230,11 +230,11 @@ impl<const WAY: u8> Form for Tensor<'_, WAY> {
     }
 
     #[cold]
-    fn scale(&self, at: DVec2) -> f64 {
+    fn scale(&self, [u, v]: [f64; 2], _: &mut Vec<f64>) -> f64 {
         let [m, n] = self.0.degrees;
         let mut rows = [[0.0; MAX_DEGREE + 1]; 2];
-        basis(at.x, &mut rows[0][..=m]);
-        basis(at.y, &mut rows[1][..=n]);
+        basis(u, &mut rows[0][..=m]);
+        basis(v, &mut rows[1][..=n]);
         scale(self.0.net, &rows[0][..=m], &rows[1][..=n])
     }
 }

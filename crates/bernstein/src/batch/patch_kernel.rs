@@ -18,25 +18,6 @@ pub(super) const BICUBIC: u8 = 0;
 pub(super) const QUOTIENTS: u8 = 1;
 pub(super) const BASIS: u8 = 2;
 
-/// The parameters of as many places as there are lanes; lanes beyond the last repeat it.
-#[inline(always)]
-pub(super) fn load_pairs<S: Lanes>(simd: S, parameters: &[f64], place: usize) -> [S::f64s; 2] {
-    let pairs = match parameters.get(2 * place..2 * (place + S::F64_LANES)) {
-        Some(all) => [simd.load(all, 0), simd.load(all, S::F64_LANES)],
-        None => {
-            let mut padded = [0.0; 2 * WIDTH];
-            let rest = parameters.get(2 * place..).unwrap_or_default();
-            padded[..rest.len()].copy_from_slice(rest);
-            padded[rest.len()..]
-                .as_chunks_mut()
-                .0
-                .fill([parameters[parameters.len() - 2], parameters[parameters.len() - 1]]);
-            [simd.load(&padded, 0), simd.load(&padded, S::F64_LANES)]
-        }
-    };
-    simd.deinterleave(pairs)
-}
-
 /// A register of parameters (u, v).
 pub(super) struct At<S: Lanes> {
     simd: S,

@@ -14,42 +14,51 @@ pub(super) fn uncertainty(degree: usize) -> f64 {
     (4 * (degree + 2)) as f64 * UNIT_ROUNDOFF
 }
 
-/// Quotient rule for a surface: `S_α = (N_α − Σ_{0<β≤α} C(α,β) w_β S_{α−β}) / w`, K = 1, 3 or 6 orders in the
-/// order of [`partial_index`](crate::partial_index).
+/// Quotient rule in `N` variables: `S_α = (N_α − Σ_{0<β≤α} C(α,β) w_β S_{α−β}) / w`, for values (K = 1), with first (K = N + 1)
+/// and second derivatives, in the order of [`simplex_partial_index`](crate::simplex_partial_index).
 ///
 /// Source: Piegl and Tiller, *The NURBS Book*, 2nd ed., sec. 4.5.
 #[inline(always)]
-pub(super) fn surface<S: Lanes, const K: usize>(simd: S, jet: &[[S::f64s; 4]; K]) -> [[S::f64s; 3]; K] {
+pub(super) fn partials<S: Lanes, const N: usize, const K: usize>(
+    simd: S,
+    jet: &[[S::f64s; 4]; K],
+) -> [[S::f64s; 3]; K] {
     let inverse = simd.div_f64s(simd.splat_f64s(1.0), jet[0][3]);
     let mut out = [[simd.splat_f64s(0.0); 3]; K];
     for c in 0..3 {
-        let numerator = |k: usize| jet[k][c];
         let weight = |k: usize| simd.neg_f64s(jet[k][3]);
-        let point = simd.mul_f64s(numerator(0), inverse);
+        let point = simd.mul_f64s(jet[0][c], inverse);
         out[0][c] = point;
-        if K < 3 {
+        if K <= N {
             continue;
         }
-        let du = simd.mul_f64s(simd.mul_add_f64s(point, weight(1), numerator(1)), inverse);
-        let dv = simd.mul_f64s(simd.mul_add_f64s(point, weight(2), numerator(2)), inverse);
-        (out[1][c], out[2][c]) = (du, dv);
-        if K < 6 {
+        let mut first = [point; N];
+        for a in 0..N {
+            first[a] = simd.mul_f64s(simd.mul_add_f64s(point, weight(1 + a), jet[1 + a][c]), inverse);
+            out[1 + a][c] = first[a];
+        }
+        if K <= N + 1 {
             continue;
         }
-        let (twice_du, twice_dv) = (simd.add_f64s(du, du), simd.add_f64s(dv, dv));
-        let duu = simd.mul_add_f64s(point, weight(3), simd.mul_add_f64s(twice_du, weight(1), numerator(3)));
-        let duv = simd.mul_add_f64s(du, weight(2), simd.mul_add_f64s(dv, weight(1), numerator(4)));
-        let duv = simd.mul_add_f64s(point, weight(4), duv);
-        let dvv = simd.mul_add_f64s(point, weight(5), simd.mul_add_f64s(twice_dv, weight(2), numerator(5)));
-        out[3][c] = simd.mul_f64s(duu, inverse);
-        out[4][c] = simd.mul_f64s(duv, inverse);
-        out[5][c] = simd.mul_f64s(dvv, inverse);
+        let mut k = N + 1;
+        for a in 0..N {
+            for b in a..N {
+                let rest = if a == b {
+                    simd.mul_add_f64s(simd.add_f64s(first[a], first[a]), weight(1 + a), jet[k][c])
+                } else {
+                    let rest = simd.mul_add_f64s(first[b], weight(1 + a), jet[k][c]);
+                    simd.mul_add_f64s(first[a], weight(1 + b), rest)
+                };
+                out[k][c] = simd.mul_f64s(simd.mul_add_f64s(point, weight(k), rest), inverse);
+                k += 1;
+            }
+        }
     }
     out
 }
 
 /// Quotient rule for a curve, `C⁽ᵏ⁾ = (N⁽ᵏ⁾ − Σ_{0<j≤k} C(k,j) w⁽ʲ⁾ C⁽ᵏ⁻ʲ⁾) / w`, up to order 2; otherwise as
-/// [`surface`].
+/// [`partials`].
 #[inline(always)]
 pub(super) fn curve<S: Lanes, const K: usize>(simd: S, jet: &[[S::f64s; 4]; K]) -> [[S::f64s; 3]; K] {
     let inverse = simd.div_f64s(simd.splat_f64s(1.0), jet[0][3]);

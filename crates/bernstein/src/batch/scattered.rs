@@ -1,4 +1,4 @@
-//! What surfaces at scattered parameters have in common: the loop over registers of places, the quotient rule, the poles.
+//! What shapes at scattered parameters have in common: the loop over registers of places, the quotient rule, the poles.
 
 // As in `simd.rs`: plain loops over registers.
 #![allow(clippy::needless_range_loop)]
@@ -7,17 +7,18 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use pulp::Scalar;
 
-use super::blocks::store;
+use super::blocks::{load_tuples, store};
 use super::parallel::{CHUNK, each_chunk};
-use super::patch_kernel::load_pairs;
-use super::quotient::{lane, largest_weight, refuse_pole, settle, surface, suspicious, uncertainty};
+use super::quotient::{
+    is_tame, lane, largest_weight, partials, refuse_pole, settle, suspicious, uncertainty,
+};
 use super::simd::{Job, Lanes, dispatch, dispatch_in};
 use super::{BatchPoint, check_length};
 use crate::BernsteinError;
-use crate::glam::{DVec2, DVec4};
+use crate::glam::DVec4;
 
-/// A polynomial in two parameters, as plain numbers, so that the kernels are compiled with this crate and once.
-pub(super) trait Form: Copy + Send + Sync {
+/// A polynomial in `N` parameters, as plain numbers, so that the kernels are compiled with this crate and once.
+pub(super) trait Form<const N: usize>: Copy + Send + Sync {
     /// What is made of a register of parameters for all kinds of derivatives.
     type At<S: Lanes>;
 
@@ -27,55 +28,76 @@ pub(super) trait Form: Copy + Send + Sync {
     fn degree(&self) -> usize;
     /// Room for [`move_to`](Self::move_to).
     fn at<S: Lanes>(&self, simd: S) -> Self::At<S>;
-    fn move_to<S: Lanes>(&self, simd: S, at: &mut Self::At<S>, u: S::f64s, v: S::f64s);
-    /// The first `K` derivatives, in the order of [`partial_index`](crate::partial_index).
+    fn move_to<S: Lanes>(&self, simd: S, at: &mut Self::At<S>, parameters: [S::f64s; N]);
+    /// The first `K` derivatives, in the order of [`simplex_partial_index`](crate::simplex_partial_index).
     fn jet<S: Lanes, const D: usize, const K: usize>(&self, simd: S, at: &Self::At<S>) -> [[S::f64s; D]; K];
-    /// A bound on `Σ|B|`, the sum over the basis.
+    /// The same of numerators and denominator, in each lane divided by its [`factor`](Self::factor), which the
+    /// quotient rule does not notice.
+    #[inline(always)]
+    fn homogeneous<S: Lanes, const K: usize>(&self, simd: S, at: &Self::At<S>) -> [[S::f64s; 4]; K] {
+        self.jet(simd, at)
+    }
+    #[inline(always)]
+    fn factor<S: Lanes>(&self, simd: S, at: &Self::At<S>) -> S::f64s {
+        let _ = at;
+        simd.splat_f64s(1.0)
+    }
+    /// A bound on `Σ|B|`, the sum over the basis, likewise divided.
     fn spread<S: Lanes>(&self, simd: S, at: &Self::At<S>) -> S::f64s;
-    /// `Σ|B w|` at one place: the scale of the denominator's error.
-    fn scale(&self, at: DVec2) -> f64;
+    /// Whether all lanes lie inside the domain; `false` where that is not worth asking.
+    #[inline(always)]
+    fn is_inside<S: Lanes>(&self, simd: S, at: &Self::At<S>) -> bool {
+        let _ = (simd, at);
+        false
+    }
+    /// `Σ|B w|` at one place: the scale of the denominator's error. `scratch` is kept from place to place.
+    fn scale(&self, at: [f64; N], scratch: &mut Vec<f64>) -> f64;
 }
 
-/// Values (one buffer), with first (three) and second (six) derivatives of a polynomial shape, at pairs of parameters.
-pub(super) fn plain<F: Form>(
+/// Values (one buffer), with first (three) and second (six) derivatives of a surface at pairs of parameters: of its
+/// polynomials of `dimension` numbers, or of the rational shape in space that they are of.
+pub(super) fn surface<F: Form<2>, const RATIONAL: bool>(
     form: F,
     dimension: usize,
     parameters: &[f64],
     out: &mut [&mut [f64]],
 ) -> Result<(), BernsteinError> {
     match out {
-        [a] => run::<F, 1, false>(form, dimension, parameters, [a]),
-        [a, b, c] => run::<F, 3, false>(form, dimension, parameters, [a, b, c]),
-        [a, b, c, d, e, f] => run::<F, 6, false>(form, dimension, parameters, [a, b, c, d, e, f]),
+        [a] => run::<F, 2, 1, RATIONAL>(form, dimension, parameters, [a]),
+        [a, b, c] => run::<F, 2, 3, RATIONAL>(form, dimension, parameters, [a, b, c]),
+        [a, b, c, d, e, f] => run::<F, 2, 6, RATIONAL>(form, dimension, parameters, [a, b, c, d, e, f]),
         _ => Ok(()),
     }
 }
 
-/// The same of a rational shape in space, by the quotient rule.
-pub(super) fn rational<F: Form>(
+/// Values (one buffer), with first (four) derivatives of a solid at triples of parameters, as [`surface`].
+pub(super) fn solid<F: Form<3>, const RATIONAL: bool>(
     form: F,
+    dimension: usize,
     parameters: &[f64],
     out: &mut [&mut [f64]],
 ) -> Result<(), BernsteinError> {
     match out {
-        [a] => run::<F, 1, true>(form, 3, parameters, [a]),
-        [a, b, c] => run::<F, 3, true>(form, 3, parameters, [a, b, c]),
-        [a, b, c, d, e, f] => run::<F, 6, true>(form, 3, parameters, [a, b, c, d, e, f]),
+        [a] => run::<F, 3, 1, RATIONAL>(form, dimension, parameters, [a]),
+        [a, b, c, d] => run::<F, 3, 4, RATIONAL>(form, dimension, parameters, [a, b, c, d]),
         _ => Ok(()),
     }
 }
 
-/// Cuts the parameters into chunks, for results of `width` numbers a point.
-fn run<F: Form, const K: usize, const RATIONAL: bool>(
+/// Cuts the parameters into chunks.
+fn run<F: Form<N>, const N: usize, const K: usize, const RATIONAL: bool>(
     form: F,
-    width: usize,
+    dimension: usize,
     parameters: &[f64],
     out: [&mut [f64]; K],
 ) -> Result<(), BernsteinError> {
+    let width = if RATIONAL { 3 } else { dimension };
     let out = out.map(|out| out.chunks_mut(CHUNK * width));
     let pole = AtomicUsize::new(usize::MAX);
-    each_chunk(parameters.chunks(2 * CHUNK).enumerate(), out, |(number, parameters), out| {
-        let chunk = Chunk::<F, K, RATIONAL> { form, parameters, out, first: number * CHUNK, pole: &pole };
+    let tame = RATIONAL && is_tame(form.net());
+    each_chunk(parameters.chunks(N * CHUNK).enumerate(), out, |(number, parameters), out| {
+        let first = number * CHUNK;
+        let chunk = Chunk::<F, N, K, RATIONAL> { form, parameters, out, first, tame, pole: &pole };
         if RATIONAL {
             dispatch_in::<_, 4>(chunk);
         } else {
@@ -86,55 +108,54 @@ fn run<F: Form, const K: usize, const RATIONAL: bool>(
 }
 
 /// Some of the parameters.
-struct Chunk<'a, F, const K: usize, const RATIONAL: bool> {
+struct Chunk<'a, F, const N: usize, const K: usize, const RATIONAL: bool> {
     form: F,
     parameters: &'a [f64],
     out: [&'a mut [f64]; K],
     /// The place of the first parameter in the whole batch.
     first: usize,
+    /// Whether nothing can go wrong with a quotient inside the domain, see [`is_tame`].
+    tame: bool,
     /// The first place of a pole.
     pole: &'a AtomicUsize,
 }
 
-impl<F: Form, const K: usize, const RATIONAL: bool> Job for Chunk<'_, F, K, RATIONAL> {
+impl<F: Form<N>, const N: usize, const K: usize, const RATIONAL: bool> Job for Chunk<'_, F, N, K, RATIONAL> {
     type Output = ();
 
     #[inline(always)]
     fn run<S: Lanes, const D: usize>(self, simd: S) {
-        let Self { form, parameters, mut out, first, pole } = self;
+        let Self { form, parameters, mut out, first, tame, pole } = self;
         let uncertainty = uncertainty(form.degree());
         let weight = if RATIONAL { uncertainty * largest_weight(form.net()) } else { 0.0 };
-        let count = parameters.len() / 2;
+        let count = parameters.len() / N;
         let mut at = form.at(simd);
+        let mut scratch = Vec::new();
         let mut place = 0;
         while place < count {
-            let [u, v] = load_pairs(simd, parameters, place);
-            form.move_to(simd, &mut at, u, v);
-            let jet: [[S::f64s; D]; K] = form.jet(simd, &at);
+            form.move_to(simd, &mut at, load_tuples(simd, parameters, place));
             if RATIONAL {
-                let mut homogeneous = [[simd.splat_f64s(0.0); 4]; K];
-                for k in 0..K {
-                    for c in 0..D {
-                        homogeneous[k][c] = jet[k][c];
-                    }
-                }
-                let points = surface(simd, &homogeneous);
+                let homogeneous: [_; K] = form.homogeneous(simd, &at);
+                let points = partials::<S, N, K>(simd, &homogeneous);
                 for k in 0..K {
                     store(simd, out[k], place, points[k]);
                 }
-                // Σ|B w| is at most Σ|B| times the largest weight.
-                let least = simd.mul_f64s(simd.splat_f64s(weight), form.spread(simd, &at));
-                if simd.any(suspicious(simd, homogeneous[0][3], &points, least)) {
-                    for l in 0..S::F64_LANES.min(count - place) {
-                        let denominator = lane::<S>(homogeneous[0][3], l);
-                        let [u, v] = [parameters[2 * (place + l)], parameters[2 * (place + l) + 1]];
-                        let bound = uncertainty * form.scale(DVec2::new(u, v));
-                        if settle(denominator, bound, &mut out, place + l) {
-                            pole.fetch_min(first + place + l, Ordering::Relaxed);
+                if !(tame && form.is_inside(simd, &at)) {
+                    // Σ|B w| is at most Σ|B| times the largest weight.
+                    let least = simd.mul_f64s(simd.splat_f64s(weight), form.spread(simd, &at));
+                    if simd.any(suspicious(simd, homogeneous[0][3], &points, least)) {
+                        let denominator = simd.mul_f64s(homogeneous[0][3], form.factor(simd, &at));
+                        for l in 0..S::F64_LANES.min(count - place) {
+                            let Some(at) = parameters[N * (place + l)..].first_chunk::<N>() else { continue };
+                            let bound = uncertainty * form.scale(*at, &mut scratch);
+                            if settle(lane::<S>(denominator, l), bound, &mut out, place + l) {
+                                pole.fetch_min(first + place + l, Ordering::Relaxed);
+                            }
                         }
                     }
                 }
             } else {
+                let jet: [[S::f64s; D]; K] = form.jet(simd, &at);
                 for k in 0..K {
                     store(simd, out[k], place, jet[k]);
                 }
@@ -145,10 +166,10 @@ impl<F: Form, const K: usize, const RATIONAL: bool> Job for Chunk<'_, F, K, RATI
 }
 
 /// Place by place, for degrees that have no kernel; `jet` fills in the derivatives at one place.
-pub(super) fn one_by_one<P: BatchPoint, const K: usize>(
-    parameters: &[DVec2],
+pub(super) fn one_by_one<P: BatchPoint, T: Copy, const K: usize>(
+    parameters: &[T],
     out: &mut [&mut [P]; K],
-    jet: impl Fn(DVec2, &mut [P]),
+    jet: impl Fn(T, &mut [P]),
 ) {
     let mut all = [P::ZERO; K];
     for (place, &at) in parameters.iter().enumerate() {
@@ -160,21 +181,23 @@ pub(super) fn one_by_one<P: BatchPoint, const K: usize>(
 }
 
 /// The same of a rational shape.
-pub(super) fn rational_one_by_one<F: Form, const K: usize>(
+pub(super) fn rational_one_by_one<F: Form<N>, T: Copy + Into<[f64; N]>, const N: usize, const K: usize>(
     form: F,
-    parameters: &[DVec2],
+    parameters: &[T],
     out: &mut [&mut [f64]; K],
-    jet: impl Fn(DVec2, &mut [DVec4]),
+    jet: impl Fn(T, &mut [DVec4]),
 ) -> Result<(), BernsteinError> {
     let mut pole = usize::MAX;
     let mut all = [DVec4::ZERO; K];
+    let mut scratch = Vec::new();
     for (place, &at) in parameters.iter().enumerate() {
         jet(at, &mut all);
         let homogeneous = all.map(|p| p.to_array());
-        for (out, point) in out.iter_mut().zip(surface(Scalar, &homogeneous)) {
+        for (out, point) in out.iter_mut().zip(partials::<_, N, K>(Scalar, &homogeneous)) {
             out[3 * place..3 * place + 3].copy_from_slice(&point);
         }
-        if settle(homogeneous[0][3], uncertainty(form.degree()) * form.scale(at), out, place) {
+        let bound = uncertainty(form.degree()) * form.scale(at.into(), &mut scratch);
+        if settle(homogeneous[0][3], bound, out, place) {
             pole = pole.min(place);
         }
     }
@@ -182,8 +205,8 @@ pub(super) fn rational_one_by_one<F: Form, const K: usize>(
 }
 
 /// Refuses buffers of another length than the parameters.
-pub(super) fn check_lengths<P, const K: usize>(
-    parameters: &[DVec2],
+pub(super) fn check_lengths<P, T, const K: usize>(
+    parameters: &[T],
     out: &[&mut [P]; K],
 ) -> Result<(), BernsteinError> {
     out.iter().try_for_each(|out| check_length("out", parameters.len(), out.len()))

@@ -126,9 +126,9 @@ pub(super) trait Lanes: Simd {
     /// `D·l + c` of the registers returned.
     fn interleave<const D: usize>(self, parts: [Self::f64s; D]) -> [Self::f64s; D];
 
-    /// The first lanes of pairs: x of each pair, then y. The inverse of [`interleave`](Self::interleave) for
-    /// D = 2.
-    fn deinterleave(self, pairs: [Self::f64s; 2]) -> [Self::f64s; 2];
+    /// The components of pairs or triples: x of each, then y, then z. The inverse of
+    /// [`interleave`](Self::interleave) for D = 2 and 3.
+    fn deinterleave<const D: usize>(self, numbers: [Self::f64s; D]) -> [Self::f64s; D];
 
     /// The register that begins at `place`.
     #[inline(always)]
@@ -180,8 +180,8 @@ impl Lanes for Scalar {
     }
 
     #[inline(always)]
-    fn deinterleave(self, pairs: [f64; 2]) -> [f64; 2] {
-        pairs
+    fn deinterleave<const D: usize>(self, numbers: [f64; D]) -> [f64; D] {
+        numbers
     }
 }
 
@@ -239,11 +239,35 @@ mod x86 {
         }
 
         #[inline(always)]
-        fn deinterleave(self, pairs: [f64x4; 2]) -> [f64x4; 2] {
-            let (a, b) = (cast(pairs[0]), cast(pairs[1]));
-            let low = self.avx._mm256_permute2f128_pd::<0x20>(a, b); // x0 y0 x2 y2
-            let high = self.avx._mm256_permute2f128_pd::<0x31>(a, b); // x1 y1 x3 y3
-            [cast(self.avx._mm256_unpacklo_pd(low, high)), cast(self.avx._mm256_unpackhi_pd(low, high))]
+        fn deinterleave<const D: usize>(self, numbers: [f64x4; D]) -> [f64x4; D] {
+            let avx = self.avx;
+            let mut p = [cast::<f64x4, __m256d>(self.splat_f64s(0.0)); D];
+            for c in 0..D {
+                p[c] = cast(numbers[c]);
+            }
+            let mut out = p;
+            match D {
+                2 => {
+                    let low = avx._mm256_permute2f128_pd::<0x20>(p[0], p[1]); // x0 y0 x2 y2
+                    let high = avx._mm256_permute2f128_pd::<0x31>(p[0], p[1]); // x1 y1 x3 y3
+                    out[0] = avx._mm256_unpacklo_pd(low, high);
+                    out[1] = avx._mm256_unpackhi_pd(low, high);
+                }
+                3 => {
+                    let xy = avx._mm256_blend_pd::<0b1100>(p[0], p[1]); // x0 y0 x2 y2
+                    let zx = avx._mm256_permute2f128_pd::<0x21>(p[0], p[2]); // z0 x1 z2 x3
+                    let yz = avx._mm256_blend_pd::<0b1100>(p[1], p[2]); // y1 z1 y3 z3
+                    out[0] = avx._mm256_blend_pd::<0b1010>(xy, zx);
+                    out[1] = avx._mm256_shuffle_pd::<0b0101>(xy, yz);
+                    out[2] = avx._mm256_blend_pd::<0b1010>(zx, yz);
+                }
+                _ => {}
+            }
+            let mut parts = numbers;
+            for c in 0..D {
+                parts[c] = cast(out[c]);
+            }
+            parts
         }
     }
 
@@ -309,12 +333,34 @@ mod x86 {
         }
 
         #[inline(always)]
-        fn deinterleave(self, pairs: [f64x8; 2]) -> [f64x8; 2] {
-            let (a, b) = (cast(pairs[0]), cast(pairs[1]));
-            [
-                cast(pick(self, a, b, [0, 2, 4, 6, 8, 10, 12, 14])),
-                cast(pick(self, a, b, [1, 3, 5, 7, 9, 11, 13, 15])),
-            ]
+        fn deinterleave<const D: usize>(self, numbers: [f64x8; D]) -> [f64x8; D] {
+            let mut p = [cast::<f64x8, __m512d>(self.splat_f64s(0.0)); D];
+            for c in 0..D {
+                p[c] = cast(numbers[c]);
+            }
+            let mut out = p;
+            match D {
+                2 => {
+                    out[0] = pick(self, p[0], p[1], [0, 2, 4, 6, 8, 10, 12, 14]);
+                    out[1] = pick(self, p[0], p[1], [1, 3, 5, 7, 9, 11, 13, 15]);
+                }
+                3 => {
+                    // As above: component c of triple l stands in lane (3l + c) mod 8 of one of the three.
+                    let all = [p[0], p[1], p[2]];
+                    let x = choose(self, all, 0b1001_0010, 0b0010_0100);
+                    let y = choose(self, all, 0b0010_0100, 0b0100_1001);
+                    let z = choose(self, all, 0b0100_1001, 0b1001_0010);
+                    out[0] = rotate(self, x, [0, 3, 6, 1, 4, 7, 2, 5]);
+                    out[1] = rotate(self, y, [1, 4, 7, 2, 5, 0, 3, 6]);
+                    out[2] = rotate(self, z, [2, 5, 0, 3, 6, 1, 4, 7]);
+                }
+                _ => {}
+            }
+            let mut parts = numbers;
+            for c in 0..D {
+                parts[c] = cast(out[c]);
+            }
+            parts
         }
     }
 }

@@ -3,7 +3,11 @@
 use std::fmt::Debug;
 
 use super::simd::{FORCED, Path};
-use super::{CurveBatch, GridBatch, PatchBatch, TriangleBatch, elevate_many, subdivide_many, to_power_many};
+use super::{
+    BoxBatch, BoxGridBatch, CurveBatch, GridBatch, PatchBatch, TetrahedronBatch, TriangleBatch, WedgeBatch,
+    elevate_many, subdivide_many, to_power_many,
+};
+use crate::BernsteinError;
 use crate::glam::{DVec2, DVec3, DVec4};
 
 /// Numbers without a pattern: multiples of 2⁻³² in [−1, 1).
@@ -186,6 +190,91 @@ fn triangles() {
                 let mut out = [(); 6].map(|()| vec![DVec3::ZERO; at.len()]);
                 let triangle = TriangleBatch::new(&net, degree).unwrap();
                 let answer = triangle.evaluate_rational(&at, out.each_mut().map(|out| &mut out[..]));
+                vec![(answer, out)]
+            });
+        }
+    }
+}
+
+#[test]
+fn solids() {
+    fn check(
+        what: &str,
+        net: &[DVec4],
+        plain: &dyn Fn(&[DVec3], &[DVec3], [&mut [DVec3]; 4]),
+        values: &dyn Fn(&[DVec3], &[DVec3], [&mut [DVec3]; 1]),
+        rational: &dyn Fn(&[DVec3], [&mut [DVec3]; 4]) -> Result<(), BernsteinError>,
+    ) {
+        for count in [1, 7, 8, 21] {
+            let [u, v, w] = [3, 4, 5].map(|seed| parameters(count + seed as usize, seed));
+            let at = |i: usize| DVec3::new(u[i + 3], v[i + 1], w[i]);
+            let at: Vec<DVec3> = (0..count).map(at).collect();
+            let what = format!("{what} at {count} places");
+            let jets = |at: &[DVec3]| {
+                let mut out = [(); 4].map(|()| vec![DVec3::ZERO; at.len()]);
+                plain(&space(net), at, out.each_mut().map(|out| &mut out[..]));
+                (0..at.len()).map(|i| out.each_ref().map(|out| out[i])).collect::<Vec<_>>()
+            };
+            let all = on_every_path(&what, || jets(&at));
+            let alone: Vec<_> = at.iter().flat_map(|&at| jets(&[at])).collect();
+            assert_eq!(all, alone, "{what}: each alone");
+            let mut alone = vec![DVec3::ZERO; count];
+            values(&space(net), &at, [&mut alone]);
+            assert_eq!(alone, all.iter().map(|jet| jet[0]).collect::<Vec<_>>(), "{what}: values alone");
+            on_every_path(&what, || {
+                let mut out = [(); 4].map(|()| vec![DVec3::ZERO; at.len()]);
+                let answer = rational(&at, out.each_mut().map(|out| &mut out[..]));
+                vec![(answer, out)]
+            });
+        }
+    }
+    macro_rules! check {
+        ($batch:ident, $degrees:expr, $count:expr) => {{
+            let (degrees, net) = ($degrees, points($count, 5));
+            check(
+                &format!("{} of degree {degrees:?}", stringify!($batch)),
+                &net,
+                &|net, at, out| $batch::new(net, degrees).unwrap().evaluate(at, out).unwrap(),
+                &|net, at, out| $batch::new(net, degrees).unwrap().evaluate(at, out).unwrap(),
+                &|at, out| $batch::new(&net, degrees).unwrap().evaluate_rational(at, out),
+            );
+        }};
+    }
+    for [l, m, n] in [[0, 0, 0], [1, 2, 3], [3, 3, 3], [2, 2, 5], [5, 6, 7], [1, 40, 3], [2, 59, 1]] {
+        check!(BoxBatch, [l, m, n], (l + 1) * (m + 1) * (n + 1));
+    }
+    for n in [0, 1, 2, 4, 9, 20] {
+        check!(TetrahedronBatch, n, (n + 1) * (n + 2) * (n + 3) / 6);
+    }
+    for [n, o] in [[0, 0], [1, 2], [4, 3], [10, 12], [1, 61]] {
+        check!(WedgeBatch, [n, o], (n + 1) * (n + 2) / 2 * (o + 1));
+    }
+}
+
+#[test]
+fn box_grids() {
+    for degrees in [[0, 0, 0], [1, 0, 2], [3, 3, 3], [2, 2, 5], [1, 2, 12]] {
+        let size: usize = degrees.iter().map(|d| d + 1).product();
+        let nets = points(2 * size, 11);
+        for [i, j, k] in [[1, 1, 1], [2, 3, 5], [3, 1, 8], [1, 2, 19]] {
+            let (u, v, w) = (parameters(i, 1), parameters(j, 2), parameters(k, 3));
+            let what = format!("{degrees:?} on {i} × {j} × {k}");
+            let jets = |u: &[f64], v: &[f64], w: &[f64]| {
+                let grid = BoxGridBatch::new(degrees, u, v, w, 1).unwrap();
+                let mut out = [(); 4].map(|()| vec![DVec3::ZERO; 2 * grid.points_per_net()]);
+                grid.evaluate(&space(&nets), out.each_mut().map(|out| &mut out[..])).unwrap();
+                (0..out[0].len()).map(|i| out.each_ref().map(|out| out[i])).collect::<Vec<_>>()
+            };
+            let all = on_every_path(&what, || jets(&u, &v, &w));
+            for place in 0..i * j * k {
+                let (u, v, w) = (u[place / (j * k)], v[place / k % j], w[place % k]);
+                let found = [all[place], all[i * j * k + place]];
+                assert_eq!(jets(&[u], &[v], &[w]), found, "{what}: place {place} alone");
+            }
+            on_every_path(&what, || {
+                let grid = BoxGridBatch::new(degrees, &u, &v, &w, 1).unwrap();
+                let mut out = [(); 4].map(|()| vec![DVec3::ZERO; 2 * grid.points_per_net()]);
+                let answer = grid.evaluate_rational(&nets, out.each_mut().map(|out| &mut out[..]));
                 vec![(answer, out)]
             });
         }

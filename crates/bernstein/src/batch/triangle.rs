@@ -149,15 +149,15 @@ impl View<'_> {
         parameters: &[f64],
         out: &mut [&mut [f64]],
     ) -> Result<(), BernsteinError> {
-        scattered::plain(self, dimension, parameters, out)
+        scattered::surface::<_, false>(self, dimension, parameters, out)
     }
 
     fn rational(self, parameters: &[f64], out: &mut [&mut [f64]]) -> Result<(), BernsteinError> {
-        scattered::rational(self, parameters, out)
+        scattered::surface::<_, true>(self, 4, parameters, out)
     }
 }
 
-impl Form for View<'_> {
+impl Form<2> for View<'_> {
     /// The powers of the three barycentric coordinates.
     type At<S: Lanes> = [[S::f64s; MOST + 1]; 3];
 
@@ -175,8 +175,8 @@ impl Form for View<'_> {
     }
 
     #[inline(always)]
-    fn move_to<S: Lanes>(&self, simd: S, powers: &mut Self::At<S>, u: S::f64s, v: S::f64s) {
-        let lambda = [u, v, last(simd, u, v)];
+    fn move_to<S: Lanes>(&self, simd: S, powers: &mut Self::At<S>, [u, v]: [S::f64s; 2]) {
+        let lambda = [u, v, last(simd, [u, v])];
         for a in 0..3 {
             let mut power = lambda[a];
             for i in 1..=self.degree.max(1) {
@@ -210,20 +210,21 @@ impl Form for View<'_> {
     }
 
     #[cold]
-    fn scale(&self, at: DVec2) -> f64 {
-        let mut basis = vec![0.0; self.net.len() / 4];
-        if simplex_basis(self.degree, barycentric(at), &mut basis).is_err() {
+    fn scale(&self, at: [f64; 2], basis: &mut Vec<f64>) -> f64 {
+        basis.resize(self.net.len() / 4, 0.0);
+        if simplex_basis(self.degree, barycentric(at.into()), basis).is_err() {
             return f64::INFINITY; // never: the net was checked
         }
         basis.iter().zip(self.net.chunks_exact(4)).map(|(b, p)| (b * p[3]).abs()).sum()
     }
 }
 
-/// 1 − u − v, as [`last_barycentric`] has it.
+/// 1 − Σ of the others, as [`last_barycentric`] has it.
 #[inline(always)]
-fn last<S: Lanes>(simd: S, u: S::f64s, v: S::f64s) -> S::f64s {
+pub(super) fn last<S: Lanes, const N: usize>(simd: S, others: [S::f64s; N]) -> S::f64s {
     let (mut sum, mut lost) = (simd.splat_f64s(1.0), simd.splat_f64s(0.0));
-    for x in [u, v] {
+    for a in 0..N {
+        let x = others[a];
         let next = simd.sub_f64s(sum, x);
         let taken = simd.sub_f64s(sum, next);
         let of_sum = simd.sub_f64s(sum, simd.add_f64s(next, taken));
