@@ -2,6 +2,9 @@ use casteljau_domain::DomainError;
 use casteljau_gb::GbError;
 use casteljau_mesh::MeshError;
 use casteljau_shape::ShapeError;
+use casteljau_solid::SolidError;
+
+use crate::FaceId;
 
 /// What can be wrong with a tessellation, and where. Patches are counted from 0.
 ///
@@ -98,7 +101,62 @@ pub enum TessError {
         /// What is wrong with it.
         source: DomainError,
     },
+    /// A face of a solid could not be meshed.
+    ///
+    /// ```
+    /// use casteljau_solid::{RationalTetrahedron, geom::glam::DVec3};
+    /// use casteljau_tess::{FaceId, SharedFaces, TessError, TessellationOptions, no_progress, tessellate_solids};
+    /// let corners = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::ZERO];
+    /// let solid = RationalTetrahedron::new(1, &corners, &[-1.0, 2.0, 2.0, 2.0])?; // poles across three faces
+    /// let options = TessellationOptions::resolution(4);
+    /// let refused = tessellate_solids(&[solid], SharedFaces::Dropped, &options, &mut no_progress);
+    /// assert!(matches!(refused, Err(TessError::Face { id: FaceId { solid: 0, face: 1 }, .. })));
+    /// # Ok::<(), casteljau_solid::SolidError>(())
+    /// ```
+    #[error("face {} of solid {}: {source}", .id.face, .id.solid)]
+    Face {
+        /// Which face.
+        id: FaceId,
+        /// What is wrong; the patch in it counts the faces of the surface.
+        source: Box<TessError>,
+    },
+    /// A solid could not be evaluated.
+    #[error("solid {solid}: {source}")]
+    Solid {
+        /// The solid.
+        solid: usize,
+        /// What it said.
+        source: SolidError,
+    },
+    /// The Jacobian of a solid is zero at its middle and at all of a few other places: it has no inside.
+    ///
+    /// ```
+    /// use casteljau_solid::{Tetrahedron, geom::glam::DVec3};
+    /// use casteljau_tess::{SharedFaces, Skin, TessError};
+    /// let flat = Tetrahedron::new(1, [DVec3::X, DVec3::Y, DVec3::ZERO, DVec3::ZERO])?;
+    /// assert!(matches!(Skin::new(&[flat], SharedFaces::Kept), Err(TessError::FlatSolid { solid: 0 })));
+    /// # Ok::<(), casteljau_solid::SolidError>(())
+    /// ```
+    #[error("the Jacobian of solid {solid} is zero wherever it was asked for: it has no inside")]
+    FlatSolid {
+        /// The solid.
+        solid: usize,
+    },
     /// The sink refused a vertex or a triangle.
     #[error("the sink: {0}")]
     Sink(#[from] MeshError),
+}
+
+impl TessError {
+    /// The patch that it is about.
+    pub(crate) fn patch(&self) -> Option<usize> {
+        match *self {
+            Self::TooManyVertices { patch, .. }
+            | Self::ToleranceMissed { patch, .. }
+            | Self::Shape { patch, .. }
+            | Self::Patch { patch, .. }
+            | Self::Domain { patch, .. } => Some(patch),
+            _ => None,
+        }
+    }
 }
