@@ -149,6 +149,18 @@ impl VolumeMesh {
         Ok(audit)
     }
 
+    /// How many cells have a volume that is not above the rounding in it; see [`VolumeAudit::not_positive`].
+    ///
+    /// The mesh must [hold together](Self::validate); cells that name vertices that do not exist count. Cost: linear.
+    pub fn not_positive(&self) -> usize {
+        let vertices = self.positions.len();
+        let flat = |cell: &&Cell| {
+            let row = cell.vertices();
+            row.iter().any(|&v| v as usize >= vertices) || self.cell_volume(cell) <= self.volume_rounding(row)
+        };
+        self.cells.iter().filter(flat).count()
+    }
+
     /// 64u of what the terms of a cell's volume can be: rounding of coordinates and of products.
     fn volume_rounding(&self, row: &[u32]) -> f64 {
         let points = row.iter().map(|&v| self.positions[v as usize]);

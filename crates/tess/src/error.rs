@@ -142,6 +142,32 @@ pub enum TessError {
         /// The solid.
         solid: usize,
     },
+    /// The cells of solids would have more vertices than allowed.
+    ///
+    /// ```
+    /// use casteljau_solid::Hexahedron;
+    /// use casteljau_tess::{TessError, VolumeOptions, no_progress, volume_mesh};
+    /// let options = VolumeOptions { max_vertices: 1000, ..VolumeOptions::resolution(20) };
+    /// let refused = volume_mesh(&[Hexahedron::unit_cube()], &options, &mut no_progress);
+    /// assert_eq!(refused, Err(TessError::TooManySolidVertices { solid: 0, needed: 9261.0, limit: 1000 }));
+    /// ```
+    #[error("about {needed:.3e} vertices are needed by solid {solid}, {limit} are allowed")]
+    TooManySolidVertices {
+        /// The solid in work.
+        solid: usize,
+        /// Vertices needed up to there, roughly.
+        needed: f64,
+        /// The limit.
+        limit: usize,
+    },
+    /// The weights of a solid change their sign somewhere: there it has a pole, or so nearly that no bound shows it has none.
+    #[error("solid {solid} has a pole, or its weights have two signs, near ({}, {}, {}) of its domain", .at[0], .at[1], .at[2])]
+    SolidPole {
+        /// The solid.
+        solid: usize,
+        /// Where: u, v, w on `[0, 1]`; the first three barycentric coordinates; or the first two and the height on `[0, 1]`.
+        at: [f64; 3],
+    },
     /// The sink refused a vertex or a triangle.
     #[error("the sink: {0}")]
     Sink(#[from] MeshError),

@@ -48,5 +48,8 @@ pub use face::{AsFace, Face};
 pub use options::{DEFAULT_MAX_VERTICES, Density, Seams, TessellationOptions, no_progress};
 pub use report::{Quality, Report, SideId};
 pub use side::SideSamples;
-pub use solid::{AsSolid, FaceId, SharedFaces, Skin, SkinFace, Solid, tessellate_solids};
+pub use solid::{
+    AsSolid, CellKind, FaceId, SharedFaces, Skin, SkinFace, Solid, VolumeOptions, VolumeReport,
+    tessellate_solids, volume_mesh,
+};
 pub use tessellate::{tessellate, tessellate_into};
