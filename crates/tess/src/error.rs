@@ -1,5 +1,6 @@
 use casteljau_domain::DomainError;
 use casteljau_gb::GbError;
+use casteljau_geom::glam::DVec3;
 use casteljau_mesh::MeshError;
 use casteljau_shape::ShapeError;
 use casteljau_solid::SolidError;
@@ -159,6 +160,67 @@ pub enum TessError {
         needed: f64,
         /// The limit.
         limit: usize,
+    },
+    /// A plane without a direction, or a number in it that is not finite.
+    ///
+    /// ```
+    /// use casteljau_solid::Hexahedron;
+    /// use casteljau_tess::{SectionOptions, TessError, geom::glam::DVec3, no_progress, slice};
+    /// let options = SectionOptions::tolerance(1e-3);
+    /// let refused = slice(&[Hexahedron::unit_cube()], DVec3::ZERO, 1.0, &options, &mut no_progress);
+    /// assert!(matches!(refused, Err(TessError::Plane { .. })));
+    /// ```
+    #[error("there is no plane {} x + {} y + {} z = {offset}", .normal.x, .normal.y, .normal.z)]
+    Plane {
+        /// The normal.
+        normal: DVec3,
+        /// The offset.
+        offset: f64,
+    },
+    /// A number of a scalar field, or a number of fields, that there can be no surface of.
+    ///
+    /// ```
+    /// use casteljau_tess::{SolidField, TessError};
+    /// let refused = SolidField::tetrahedron(1, [0.0; 5]);
+    /// assert_eq!(refused, Err(TessError::Field { what: "number of coefficients", value: 5.0 }));
+    /// ```
+    #[error("a field cannot be used with this {what}: {value}")]
+    Field {
+        /// What is wrong.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A field over another kind of domain than that of its solid.
+    ///
+    /// ```
+    /// use casteljau_solid::Hexahedron;
+    /// use casteljau_tess::{SectionOptions, SolidField, TessError, iso_surface, no_progress};
+    /// let (cube, field) = (Hexahedron::unit_cube(), SolidField::wedge([0, 0], [1.0])?);
+    /// let options = SectionOptions::tolerance(1e-3);
+    /// let refused = iso_surface(&[cube], &[field], 1.0, &options, &mut no_progress);
+    /// assert!(matches!(refused, Err(TessError::FieldKind { solid: 0 })));
+    /// # Ok::<(), TessError>(())
+    /// ```
+    #[error("the field of solid {solid} is over another kind of domain")]
+    FieldKind {
+        /// The solid.
+        solid: usize,
+    },
+    /// Halving ended before a slice or an iso-surface was within the tolerance everywhere: it has a singular point, or bends
+    /// too much.
+    #[error(
+        "the surface in solid {solid} is within {reached:.3e} of its mesh of {vertices} vertices only, not within {tolerance:.3e}"
+    )]
+    SectionMissed {
+        /// The solid with the largest error.
+        solid: usize,
+        /// The tolerance, in model units.
+        tolerance: f64,
+        /// The largest chord error left, in model units.
+        reached: f64,
+        /// Vertices of the mesh at that time.
+        vertices: usize,
     },
     /// The weights of a solid change their sign somewhere: there it has a pole, or so nearly that no bound shows it has none.
     #[error("solid {solid} has a pole, or its weights have two signs, near ({}, {}, {}) of its domain", .at[0], .at[1], .at[2])]

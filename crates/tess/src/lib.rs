@@ -21,6 +21,8 @@
 //!
 //! **Determinism.** The same input gives the same bits.
 
+pub use casteljau_geom as geom;
+
 mod chart;
 mod charted;
 mod draft;
@@ -49,7 +51,7 @@ pub use options::{DEFAULT_MAX_VERTICES, Density, Seams, TessellationOptions, no_
 pub use report::{Quality, Report, SideId};
 pub use side::SideSamples;
 pub use solid::{
-    AsSolid, CellKind, FaceId, SharedFaces, Skin, SkinFace, Solid, VolumeOptions, VolumeReport,
-    tessellate_solids, volume_mesh,
+    AsSolid, CellKind, FaceId, SectionOptions, SectionReport, SharedFaces, Skin, SkinFace, Solid, SolidField,
+    VolumeOptions, VolumeReport, iso_surface, slice, tessellate_solids, volume_mesh,
 };
 pub use tessellate::{tessellate, tessellate_into};

@@ -226,6 +226,12 @@ impl Complex {
         self.members[solid].groups.map(|group| chosen[group])
     }
 
+    /// The same, with 1 for those that a solid of its kind does not have.
+    pub fn shown_counts(&self, solid: usize, chosen: &[u32]) -> [u32; 3] {
+        let (counts, groups) = (self.counts_of(solid, chosen), self.degrees(solid).groups());
+        std::array::from_fn(|group| if group < groups { counts[group] } else { 1 })
+    }
+
     /// Where a place of a solid's lattice is.
     pub fn place(&self, solid: usize, at: [u32; 4], counts: [u32; 3]) -> Place {
         let member = &self.members[solid];
@@ -329,6 +335,18 @@ pub(crate) enum Carrier {
     Edge(usize, u32),
     Face(usize),
     Inside,
+}
+
+impl Carrier {
+    /// 0 for a corner, 3 for the inside.
+    pub fn dimension(&self) -> usize {
+        match self {
+            Self::Corner(_) => 0,
+            Self::Edge(..) => 1,
+            Self::Face(_) => 2,
+            Self::Inside => 3,
+        }
+    }
 }
 
 fn root(parent: &mut [usize], mut x: usize) -> usize {

@@ -1,6 +1,6 @@
 //! The lattice over a domain: its places, what they lie on, and its cells.
 
-use casteljau_shape::bernstein::{TRIANGLE_EDGES, simplex_count, simplex_index};
+use casteljau_shape::bernstein::{TRIANGLE_EDGES, last_barycentric, simplex_count, simplex_index};
 
 use super::complex::Carrier;
 use super::net::{Degrees, Local};
@@ -40,6 +40,15 @@ impl Degrees {
         match self {
             Self::Hexahedron(_) | Self::Tetrahedron(_) => [at[0], at[1], at[2]],
             Self::Wedge(_) => [at[0], at[1], at[3]],
+        }
+    }
+
+    /// Local parameters from what [`parameters`](Self::parameters) names a place by.
+    pub fn completed(self, [a, b, c]: [f64; 3]) -> Local {
+        match self {
+            Self::Hexahedron(_) => [a, b, c, 0.0],
+            Self::Tetrahedron(_) => [a, b, c, last_barycentric(&[a, b, c])],
+            Self::Wedge(_) => [a, b, last_barycentric(&[a, b]), c],
         }
     }
 

@@ -3,13 +3,20 @@
 mod bends;
 mod complex;
 mod face_key;
+mod field;
 mod lattice;
+mod march;
 mod net;
+mod quotient;
+mod section;
+mod section_error;
 mod skin;
 #[allow(clippy::module_inception)]
 mod solid;
 mod volume;
 
+pub use field::SolidField;
+pub use section::{SectionOptions, SectionReport, iso_surface, slice};
 pub use skin::{SharedFaces, Skin, SkinFace, tessellate_solids};
 pub use solid::{AsSolid, FaceId, Solid};
 pub use volume::{CellKind, VolumeOptions, VolumeReport, volume_mesh};

@@ -3,7 +3,7 @@
 use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
 use casteljau_shape::bernstein::{
     BernsteinError, BoxNet, Point, TETRAHEDRON_EIGHTHS, TETRAHEDRON_FACES, TRIANGLE_EDGES, TRIANGLE_QUARTERS,
-    TetrahedronNet, WedgeNet, multi_indices, restrict_tensor, simplex_count, simplex_index,
+    TetrahedronNet, WedgeNet, elevate_tensor, multi_indices, restrict_tensor, simplex_count, simplex_index,
 };
 use casteljau_solid::{Axis, HexahedronFace};
 
@@ -83,6 +83,30 @@ impl Degrees {
             Self::Tetrahedron(n) => simplex_count::<4>(n),
             Self::Wedge([n, o]) => simplex_count::<3>(n) * (o + 1),
         }
+    }
+
+    /// So many times the degrees.
+    pub fn times(self, factor: usize) -> Self {
+        match self {
+            Self::Hexahedron(degrees) => Self::Hexahedron(degrees.map(|d| d * factor)),
+            Self::Tetrahedron(n) => Self::Tetrahedron(n * factor),
+            Self::Wedge(degrees) => Self::Wedge(degrees.map(|d| d * factor)),
+        }
+    }
+
+    /// The net of the same polynomial in higher degrees.
+    pub fn elevate<P: Point>(self, points: &[P], to: Self) -> Result<Vec<P>, BernsteinError> {
+        let mut out = vec![P::ZERO; to.count()];
+        match (self, to) {
+            (Self::Hexahedron(from), Self::Hexahedron(to)) => elevate_tensor(points, from, to, &mut out)?,
+            (Self::Tetrahedron(n), Self::Tetrahedron(to)) => {
+                TetrahedronNet::new(points, n)?.elevate(to, &mut out)?;
+            }
+            (Self::Wedge(from), Self::Wedge(to)) => WedgeNet::new(points, from)?.elevate(to, &mut out)?,
+            // Both are of one kind.
+            _ => {}
+        }
+        Ok(out)
     }
 
     /// The sum of the degrees, which roundings grow with.
@@ -420,6 +444,19 @@ impl SolidNet {
         match &self.points {
             Points::Polynomial(points) => points.iter().map(|p| p.extend(1.0)).collect(),
             Points::Rational(points) => points.clone(),
+        }
+    }
+
+    /// Point and derivatives by the parameters of [`Degrees::partials`], by the quotient rule; not finite at a pole.
+    pub fn jet(&self, at: Local) -> [DVec3; 4] {
+        match &self.points {
+            Points::Polynomial(points) => self.degrees.partials(points, at),
+            Points::Rational(points) => {
+                let [p, a, b, c] = self.degrees.partials(points, at);
+                let point = p.xyz() / p.w;
+                let by = |d: DVec4| (d.xyz() - point * d.w) / p.w;
+                [point, by(a), by(b), by(c)]
+            }
         }
     }
 

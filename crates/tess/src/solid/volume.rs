@@ -14,7 +14,7 @@ use crate::progress::Progress;
 use crate::{DEFAULT_MAX_VERTICES, Density, TessError};
 
 /// Most edges along one side of a solid.
-const MOST_COUNT: u32 = 1 << 20;
+pub(crate) const MOST_COUNT: u32 = 1 << 20;
 /// Times that counts are doubled where cells are not of positive volume.
 const DOUBLINGS: usize = 3;
 /// Places between two reports of progress.
@@ -83,7 +83,7 @@ pub struct VolumeReport {
 /// side out also where a solid is turned inside out.
 ///
 /// **Counts.** With a tolerance every solid asks for the counts that keep `⅛ ΣΣ M_ab h_a h_b` below it, M_ab bounding the second
-/// derivatives by their control nets (over 64 parts of the domain; for rational solids by the quotient rule) and h being the steps:
+/// derivatives by their control nets (over 64 parts of the domain; for rational solids by those of the quotient's) and h being the steps:
 /// a bound, not a measurement. Edges that lie across from each other in a solid must be divided alike, and so must edges
 /// that solids share, so counts spread through a model; the largest one asked for is taken.
 ///
@@ -116,7 +116,8 @@ pub fn volume_mesh<S: AsSolid>(
     check_density(&complex, options.density)?;
     let bends = (0..complex.len()).map(|solid| Bends::new(complex.net(solid), solid));
     let bends = bends.collect::<Result<Vec<_>, _>>()?;
-    let mut counts = choose_counts(&complex, &bends, options.density, 1, options.max_vertices)?;
+    let mut counts = choose_counts(&complex, &bends, options.density, 1)?;
+    check_size(&complex, &counts, options.max_vertices)?;
     let mut doublings = 0;
     loop {
         let (mesh, mut report) = fill(&complex, &counts, options, &progress)?;
@@ -161,10 +162,10 @@ pub(crate) fn choose_counts(
     bends: &[Bends],
     density: Density,
     least: u32,
-    limit: usize,
 ) -> Result<Vec<u32>, TessError> {
     let mut counts = vec![least; complex.counts];
     for (solid, bends) in bends.iter().enumerate() {
+        let limit = MOST_COUNT as usize;
         let too_many = |needed: f64| TessError::TooManySolidVertices { solid, needed, limit };
         let asked = match density {
             Density::Resolution(n) => match u32::try_from(n) {
@@ -172,20 +173,18 @@ pub(crate) fn choose_counts(
                 _ => return Err(too_many(n as f64)),
             },
             Density::Tolerance(tolerance) => {
-                let most = (limit.min(MOST_COUNT as usize)) as u32;
-                bends.counts(tolerance, most).ok_or_else(|| too_many(f64::from(most)))?
+                bends.counts(tolerance, MOST_COUNT).ok_or_else(|| too_many(f64::from(MOST_COUNT)))?
             }
         };
         for (group, asked) in complex.groups(solid).into_iter().zip(asked) {
             counts[group] = counts[group].max(asked);
         }
     }
-    check_size(complex, &counts, limit)?;
     Ok(counts)
 }
 
 /// Refuses more vertices than allowed, before anything is allocated for them.
-pub(crate) fn check_size(complex: &Complex, counts: &[u32], limit: usize) -> Result<(), TessError> {
+fn check_size(complex: &Complex, counts: &[u32], limit: usize) -> Result<(), TessError> {
     let limit = limit.min(u32::MAX as usize - 1);
     let mut needed = 0.0;
     for solid in 0..complex.len() {
@@ -207,7 +206,8 @@ fn fill(
     progress: &Progress<'_>,
 ) -> Result<(VolumeMesh, VolumeReport), TessError> {
     let mut vertices = Vertices::default();
-    let mut report = VolumeReport::default();
+    let shown = (0..complex.len()).map(|solid| complex.shown_counts(solid, counts)).collect();
+    let mut report = VolumeReport { counts: shown, ..VolumeReport::default() };
     let mut numbers: Vec<Vec<u32>> = Vec::new();
     let total = complex.len();
     for solid in 0..total {
@@ -231,7 +231,6 @@ fn fill(
             Ok(())
         })?;
         numbers.push(own);
-        report.counts.push(std::array::from_fn(|g| if g < degrees.groups() { counts[g] } else { 1 }));
     }
     let order = vertices.order();
     let mut mesh = VolumeMesh { positions: vec![DVec3::ZERO; order.len()], cells: Vec::new() };
