@@ -18,6 +18,9 @@ const LEAF: u32 = 2;
 /// Steps of the search for a crossing.
 const STEPS: usize = 80;
 
+/// Values within so many times their rounding bound are zero.
+const SNAP: f64 = 16.0;
+
 /// Even orders of a tetrahedron's corners that begin with each one, and with each pair.
 const ALONE: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 3, 2], [2, 0, 1, 3], [3, 0, 2, 1]];
 const PAIRS: [[usize; 4]; 6] =
@@ -135,7 +138,7 @@ impl March<'_> {
             // Between two places of the domain a value changes by no more than the slopes allow.
             let change: f64 =
                 (0..3).map(|a| level.slopes[a] * f64::from(widths[a]) / f64::from(steps[a])).sum();
-            if value > change + 2.0 * level.rounding {
+            if value > change + 2.0 * SNAP * level.rounding {
                 done += volume;
                 continue;
             }
@@ -229,13 +232,13 @@ impl March<'_> {
         Ok(())
     }
 
-    /// The node at a place. Values within rounding are zero, and count as above.
+    /// The node at a place. Values within a few roundings are zero, and count as above: crossings so near would be places of one point.
     fn node(&self, solid: usize, place: Place, local: Local, state: &mut State) -> Node {
         let fresh = state.nodes.len() as u32;
         *state.nodes.entry(place).or_insert_with(|| {
             let level = &self.levels[solid];
             let value = level.degrees.value(&level.coefficients, local);
-            Node { number: fresh, value: if value.abs() <= level.rounding { 0.0 } else { value } }
+            Node { number: fresh, value: if value.abs() <= SNAP * level.rounding { 0.0 } else { value } }
         })
     }
 

@@ -13,6 +13,7 @@ mod section_error;
 mod skin;
 #[allow(clippy::module_inception)]
 mod solid;
+mod unfold;
 mod volume;
 
 pub use field::SolidField;

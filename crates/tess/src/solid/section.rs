@@ -1,6 +1,5 @@
 //! Slices of solids by a plane, and iso-surfaces of fields over them.
 
-use std::collections::HashMap;
 use std::ops::ControlFlow;
 
 use casteljau_geom::glam::DVec3;
@@ -12,19 +11,17 @@ use super::complex::Complex;
 use super::field::{Level, SolidField};
 use super::march::{March, Surface};
 use super::section_error::Gauge;
+use super::unfold::unfold;
 use super::volume::{MOST_COUNT, check_density, choose_counts};
 use super::{AsSolid, Solid};
 use crate::model::fill_in_normals;
 use crate::progress::Progress;
-use crate::topology::Topology;
 use crate::{DEFAULT_MAX_VERTICES, Density, TessError};
 
 /// Fewest steps along an edge: with one, two poles could be joined by an edge that belongs to no face.
 const LEAST_COUNT: u32 = 2;
 /// Times that counts are doubled where the measured error is above the tolerance.
 const DOUBLINGS: usize = 7;
-/// Rounds of flips.
-const UNFOLDINGS: usize = 8;
 
 /// How to find a slice or an iso-surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,7 +50,8 @@ pub struct SectionReport {
     pub chord_error: f64,
     /// For each solid the steps of its lattice, as for a [`VolumeReport`](crate::VolumeReport).
     pub counts: Vec<[u32; 3]>,
-    /// For each vertex a solid that it lies in, and its parameters there.
+    /// For each vertex a solid that it lies in, and its parameters there. Some vertices inside a slice are moved within the plane
+    /// afterwards, by less than a cell of the lattice, and keep those of where they were.
     pub origins: Vec<(usize, [f64; 3])>,
 }
 
@@ -67,7 +65,9 @@ pub struct SectionReport {
 /// tetrahedra is within the tolerance of the solids; their edges that pass through the plane do so where the root of a
 /// polynomial along them is, and every tetrahedron has one or two triangles. So what is missed between the places of the lattice
 /// reaches beyond the plane by no more than the tolerance. Where an outline is farther from its edges than that, as where the plane
-/// grazes a face, the lattice is doubled.
+/// grazes a face, the lattice is doubled. Triangles that come out turned over, as lattice lines between an edge of the outline and its
+/// arc make them, are mended by flips and moves within the plane; where the plane runs along an edge of a solid a few may be left, all of them
+/// within the tolerance of the outline.
 ///
 /// **Half-open.** A place on the plane counts as above it. So a plane through a face has that face where the solid lies below,
 /// and nothing where it lies above: of two solids on each other it has the face between them once. Where the plane only touches an
@@ -108,7 +108,7 @@ pub fn slice<S: AsSolid>(
     let pull = |p: DVec3| p - unit * (p.dot(unit) - distance);
     let request = Request { complex: &complex, levels: &levels, options, flat: true };
     let (mut surface, mut report) = request.find(&pull, &Progress::new(progress))?;
-    unfold(&mut surface.triangles, &surface.points, unit);
+    unfold(&mut surface.triangles, &mut surface.points, unit, &pull);
     report.origins = origins(&solids, &complex, &surface);
     let normals = if options.normals { vec![unit; surface.points.len()] } else { Vec::new() };
     Ok((TriangleMesh { positions: surface.points, normals, triangles: surface.triangles }, report))
@@ -180,57 +180,6 @@ pub fn iso_surface<S: AsSolid>(
     }
     mesh.positions = surface.points;
     Ok((mesh, report))
-}
-
-/// Flips edges between triangles of a plane until none that can be helped is turned over or without area.
-///
-/// A triangle with a side along a curved line of the lattice, lower than the curve is high, comes out turned over: within the
-/// tolerance, and yet over its neighbours.
-fn unfold(triangles: &mut Vec<[u32; 3]>, points: &[DVec3], normal: DVec3) {
-    let mut uses: HashMap<[u32; 2], usize> = HashMap::new();
-    for &[a, b, c] in triangles.iter() {
-        for [a, b] in [[a, b], [b, c], [c, a]] {
-            *uses.entry([a.min(b), a.max(b)]).or_default() += 1;
-        }
-    }
-    if uses.values().any(|&n| n > 2) {
-        return; // Solids that overlap.
-    }
-    let area = |[a, b, c]: [u32; 3]| {
-        let [a, b, c] = [a, b, c].map(|v| points[v as usize]);
-        (b - a).cross(c - a).dot(normal)
-    };
-    let mut topology = Topology::new(std::mem::take(triangles), points.len());
-    for _ in 0..UNFOLDINGS {
-        let mut flips = 0;
-        for t in 0..topology.triangles.len() as u32 {
-            let own = topology.triangles[t as usize];
-            if area(own) > 0.0 {
-                continue;
-            }
-            // The flip after which the lesser of the two areas is largest.
-            let after = |k: usize| {
-                let (u, j) = topology.beyond(t, k)?;
-                let other = topology.triangles[u as usize];
-                let [a, b, c] = [own[k], own[(k + 1) % 3], own[(k + 2) % 3]];
-                let d = other[j];
-                let taken = uses.contains_key(&[a.min(d), a.max(d)]);
-                let least = area([a, b, d]).min(area([a, d, c]));
-                (!taken && least > area(own).min(area(other))).then_some((k, least, [a, d], [b, c]))
-            };
-            let best = (0..3).filter_map(after).max_by(|x, y| x.1.total_cmp(&y.1));
-            if let Some((k, _, [a, d], [b, c])) = best {
-                topology.flip(t, k);
-                uses.remove(&[b.min(c), b.max(c)]);
-                uses.insert([a.min(d), a.max(d)], 2);
-                flips += 1;
-            }
-        }
-        if flips == 0 {
-            break;
-        }
-    }
-    *triangles = topology.triangles;
 }
 
 /// Parameters of the solids themselves.
