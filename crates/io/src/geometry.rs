@@ -4,6 +4,10 @@ use casteljau_shape::{
     Curve, ParametricCurve, ParametricSurface, Patch, PowerCurve, PowerPatch, RationalCurve, RationalPatch,
     RationalTriangle, Triangle,
 };
+use casteljau_solid::{
+    ConstructedSolid, Hexahedron, ParametricSolid, RationalHexahedron, RationalTetrahedron, RationalWedge,
+    Tetrahedron, Wedge,
+};
 
 use crate::IoError;
 use crate::model::{NamedShape, Shape};
@@ -28,6 +32,20 @@ pub enum Geometry {
     Triangle(Triangle),
     /// A rational triangle.
     RationalTriangle(RationalTriangle),
+    /// A polynomial tetrahedron.
+    Tetrahedron(Tetrahedron),
+    /// A rational tetrahedron.
+    RationalTetrahedron(RationalTetrahedron),
+    /// A polynomial tensor-product solid.
+    Hexahedron(Hexahedron),
+    /// A rational tensor-product solid.
+    RationalHexahedron(RationalHexahedron),
+    /// A polynomial wedge.
+    Wedge(Wedge),
+    /// A rational wedge.
+    RationalWedge(RationalWedge),
+    /// A transitional, rotational or twisted solid.
+    Constructed(Box<ConstructedSolid>),
     /// A concave GB patch.
     GbPatch(Box<ConcavePatch>),
 }
@@ -55,6 +73,20 @@ impl Geometry {
         }
     }
 
+    /// The shape as a solid, if it is one.
+    pub fn as_solid(&self) -> Option<&dyn ParametricSolid> {
+        match self {
+            Self::Tetrahedron(solid) => Some(solid),
+            Self::RationalTetrahedron(solid) => Some(solid),
+            Self::Hexahedron(solid) => Some(solid),
+            Self::RationalHexahedron(solid) => Some(solid),
+            Self::Wedge(solid) => Some(solid),
+            Self::RationalWedge(solid) => Some(solid),
+            Self::Constructed(solid) => Some(solid.hexahedron()),
+            _ => None,
+        }
+    }
+
     /// The shape as a GB patch, if it is one.
     pub fn as_gb_patch(&self) -> Option<&ConcavePatch> {
         match self {
@@ -63,9 +95,18 @@ impl Geometry {
         }
     }
 
-    /// Whether there is a denominator.
+    /// Whether there is a denominator; that of a constructed solid is none where all weights are 1.
     pub fn is_rational(&self) -> bool {
-        matches!(self, Self::RationalCurve(_) | Self::RationalPatch(_) | Self::RationalTriangle(_))
+        match self {
+            Self::RationalCurve(_)
+            | Self::RationalPatch(_)
+            | Self::RationalTriangle(_)
+            | Self::RationalTetrahedron(_)
+            | Self::RationalHexahedron(_)
+            | Self::RationalWedge(_) => true,
+            Self::Constructed(solid) => solid.hexahedron().weights().any(|w| w != 1.0),
+            _ => false,
+        }
     }
 
     /// The box around the control points, which contains the shape over its domain.
@@ -79,6 +120,13 @@ impl Geometry {
             Self::RationalPatch(patch) => patch.hull_box(),
             Self::Triangle(triangle) => Some(triangle.bounding_box()),
             Self::RationalTriangle(triangle) => triangle.hull_box(),
+            Self::Tetrahedron(solid) => Some(solid.bounding_box()),
+            Self::RationalTetrahedron(solid) => solid.hull_box(),
+            Self::Hexahedron(solid) => Some(solid.bounding_box()),
+            Self::RationalHexahedron(solid) => solid.hull_box(),
+            Self::Wedge(solid) => Some(solid.bounding_box()),
+            Self::RationalWedge(solid) => solid.hull_box(),
+            Self::Constructed(solid) => solid.hexahedron().hull_box(),
             Self::GbPatch(patch) => Some(patch.bounding_box()),
             Self::PowerCurve(_) | Self::PowerPatch(_) => None,
         }
@@ -110,6 +158,12 @@ impl NamedShape {
             Shape::Patch(record) => record.build(),
             Shape::PowerPatch(record) => record.build(),
             Shape::Triangle(record) => record.build(),
+            Shape::Tetrahedron(record) => record.build(),
+            Shape::Hexahedron(record) => record.build(),
+            Shape::Wedge(record) => record.build(),
+            Shape::TransitionalSolid(record) => record.build(),
+            Shape::RotationalSolid(record) => record.build(),
+            Shape::TwistedSolid(record) => record.build(),
             Shape::GbPatch(_) => return Ok(Geometry::GbPatch(Box::new(self.to_patch()?))),
         };
         built.map_err(|fault| self.fault(fault))

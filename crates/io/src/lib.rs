@@ -4,7 +4,7 @@
 //! | --- | --- | --- | --- |
 //! | model file, `.json` | [`model`] | yes | yes |
 //! | concave GB patch, `.cgb` | [`cgb`] | yes | yes |
-//! | Bézier cells of VTK, `.vtu` | [`vtu`] | no | yes |
+//! | Bézier cells of VTK, `.vtu` | [`vtu`] | yes | yes |
 //! | OBJ, OFF, PLY, STL meshes | [`obj`], [`off`], [`ply`], [`stl`] | no | yes |
 //!
 //! [`read_model_file`] and [`write_mesh_file`] choose by the ending of the path. Text has its numbers in the shortest
@@ -15,6 +15,7 @@
 //! Memory: nothing is allocated because a file promises it, only because it is there.
 
 pub mod cgb;
+mod construction_record;
 mod error;
 mod geometry;
 mod mesh_file;
@@ -30,9 +31,11 @@ mod reason;
 mod record;
 mod replace;
 mod shape_record;
+mod solid_record;
 pub mod stl;
 pub mod vtu;
 
+pub use construction_record::{Part, RotationalRecord, TransitionalRecord, TwistedRecord};
 pub use error::IoError;
 pub use geometry::Geometry;
 pub use mesh_file::{MESH_ENDINGS, MeshFormat, write_mesh_file};
@@ -48,3 +51,4 @@ pub use record::{
 };
 pub use replace::replace_file;
 pub use shape_record::{CurveRecord, PatchRecord, PowerCurveRecord, PowerPatchRecord, TriangleRecord};
+pub use solid_record::{HexahedronRecord, TetrahedronRecord, WedgeRecord};

@@ -1,7 +1,8 @@
 //! The model file: JSON, `{"casteljau": 1, "shapes": [ … ]}`.
 //!
 //! A shape has a `kind`, an optional `name`, and the fields of its kind. Points are `[x, y, z]`; in nets, i runs with u, j
-//! with v, and the points of triangles stand in descending lexicographic order, (n,0,0), (n−1,1,0), (n−1,0,1), ….
+//! with v, k with w, and the points of triangles and tetrahedra stand in descending lexicographic order, (n,0,0),
+//! (n−1,1,0), (n−1,0,1), ….
 //!
 //! | kind | fields |
 //! | --- | --- |
@@ -10,9 +11,16 @@
 //! | `patch` | `degree` `[m, n]`, `control_points` `[i][j]`, `weights`, `intervals` `[[a, b], [c, d]]` |
 //! | `power_patch` | `coefficients` `[i][j]`, `intervals` |
 //! | `triangle` | `degree`, `control_points` `[i]`, `weights` |
+//! | `tetrahedron` | `degree`, `control_points` `[i]`, `weights` |
+//! | `hexahedron` | `degree` `[l, m, n]`, `control_points` `[i][j][k]`, `weights`, `intervals` `[[a, b], [c, d], [e, f]]` |
+//! | `wedge` | `degree` `[n, o]` (triangle, height), `control_points` `[i][k]` (i as for a triangle), `weights`, `interval` `[a, b]` of the height |
+//! | `transitional_solid` | `patch`, `curve`: the patch translated along the curve |
+//! | `rotational_solid` | `curve`: the full solid of its rotation about the z axis |
+//! | `twisted_solid` | `patch`, `curve`, and `angle` (radians by which each layer of control points is turned about the z axis further than the one before) or `rigid_angle` (radians in all, each section turned as a rigid body) |
 //!
 //! `weights`, of the net's shape, may be left out: the shape is then polynomial. `homogeneous`, `[w·x, w·y, w·z, w]` in the
-//! net's shape, may stand in place of `control_points` and `weights`.
+//! net's shape, may stand in place of `control_points` and `weights`. `interval` and `intervals` may be left out. `patch` and
+//! `curve` inside a solid are shapes of that kind; their `kind` may be left out.
 //!
 //! `gb_patch` of form `concave` has the fields
 //!
@@ -36,8 +44,9 @@ use std::sync::Arc;
 use crate::place::{Step, path_text};
 use crate::record::Fault;
 use crate::{
-    CurveRecord, GbPatchRecord, IoError, PatchRecord, Place, PowerCurveRecord, PowerPatchRecord,
-    TriangleRecord,
+    CurveRecord, GbPatchRecord, HexahedronRecord, IoError, PatchRecord, Place, PowerCurveRecord,
+    PowerPatchRecord, RotationalRecord, TetrahedronRecord, TransitionalRecord, TriangleRecord, TwistedRecord,
+    WedgeRecord,
 };
 
 mod locate;
@@ -93,6 +102,18 @@ pub enum Shape {
     PowerPatch(PowerPatchRecord),
     /// A Bézier triangle.
     Triangle(TriangleRecord),
+    /// A Bézier tetrahedron.
+    Tetrahedron(TetrahedronRecord),
+    /// A tensor-product Bézier solid.
+    Hexahedron(HexahedronRecord),
+    /// A Bézier wedge.
+    Wedge(WedgeRecord),
+    /// A patch translated along a curve.
+    TransitionalSolid(TransitionalRecord),
+    /// A curve rotated about the z axis.
+    RotationalSolid(RotationalRecord),
+    /// A patch translated along a curve and turned about the z axis.
+    TwistedSolid(TwistedRecord),
     /// A concave GB patch.
     GbPatch(GbPatchRecord),
 }
@@ -106,12 +127,18 @@ impl Shape {
             Self::Patch(_) => "patch",
             Self::PowerPatch(_) => "power_patch",
             Self::Triangle(_) => "triangle",
+            Self::Tetrahedron(_) => "tetrahedron",
+            Self::Hexahedron(_) => "hexahedron",
+            Self::Wedge(_) => "wedge",
+            Self::TransitionalSolid(_) => "transitional_solid",
+            Self::RotationalSolid(_) => "rotational_solid",
+            Self::TwistedSolid(_) => "twisted_solid",
             Self::GbPatch(_) => "gb_patch",
         }
     }
 
-    /// Refuses what is no net. The nets of curves, patches and triangles are all that they are, so that these are built;
-    /// whether ribbons make a GB patch is for the patch to say.
+    /// Refuses what is no net. The nets of Bézier shapes are all that they are, so that these are built; whether ribbons
+    /// make a GB patch is for the patch to say.
     fn check(&self) -> Result<(), Fault> {
         match self {
             Self::Curve(record) => record.build().map(drop),
@@ -119,6 +146,12 @@ impl Shape {
             Self::Patch(record) => record.build().map(drop),
             Self::PowerPatch(record) => record.build().map(drop),
             Self::Triangle(record) => record.build().map(drop),
+            Self::Tetrahedron(record) => record.build().map(drop),
+            Self::Hexahedron(record) => record.build().map(drop),
+            Self::Wedge(record) => record.build().map(drop),
+            Self::TransitionalSolid(record) => record.build().map(drop),
+            Self::RotationalSolid(record) => record.build().map(drop),
+            Self::TwistedSolid(record) => record.build().map(drop),
             Self::GbPatch(record) => record.check(),
         }
     }
@@ -131,6 +164,8 @@ pub(crate) enum Origin {
     Json { file: String, text: Box<str> },
     /// A `.cgb` file and the line on which each ribbon starts.
     Cgb { file: String, ribbons: Vec<usize> },
+    /// A `.vtu` file and the line on which the points of the shape's piece start.
+    Vtu { file: String, line: usize },
 }
 
 impl Model {
@@ -140,11 +175,16 @@ impl Model {
     pub fn read(text: &str, file: &str) -> Result<Self, IoError> {
         let shapes = wire::read(text, file)?;
         let origin = Arc::new(Origin::Json { file: file.into(), text: text.into() });
-        let shapes = shapes
-            .into_iter()
-            .enumerate()
-            .map(|(index, (name, shape))| NamedShape { name, shape, origin: Some((origin.clone(), index)) })
-            .collect::<Vec<_>>();
+        let shapes = shapes.into_iter().enumerate().map(|(index, (name, shape))| NamedShape {
+            name,
+            shape,
+            origin: Some((origin.clone(), index)),
+        });
+        Self::checked(shapes.collect())
+    }
+
+    /// The model, once every shape is one.
+    pub(crate) fn checked(shapes: Vec<NamedShape>) -> Result<Self, IoError> {
         shapes.iter().try_for_each(NamedShape::check)?;
         Ok(Self { shapes })
     }
@@ -169,6 +209,11 @@ impl NamedShape {
     pub(crate) fn from_cgb(record: GbPatchRecord, file: &str, ribbons: Vec<usize>) -> Self {
         let origin = Arc::new(Origin::Cgb { file: file.into(), ribbons });
         Self { name: None, shape: Shape::GbPatch(record), origin: Some((origin, 0)) }
+    }
+
+    /// Of a cell, and the line where its points stand.
+    pub(crate) fn from_vtu(shape: Shape, file: &str, line: usize, cell: usize) -> Self {
+        Self { name: None, shape, origin: Some((Arc::new(Origin::Vtu { file: file.into(), line }), cell)) }
     }
 
     /// Where the shape is described: file, line and path.
@@ -207,6 +252,10 @@ impl NamedShape {
                     // ribbon is said of the whole, which begins on line 1.
                     let path = if line.is_none() { path_text(part) } else { String::new() };
                     Place { path, ..Place::line(file, line.unwrap_or(1)) }
+                }
+                Origin::Vtu { file, line } => {
+                    let steps = [&[Step::Field("cells"), Step::Index(*index)], part].concat();
+                    Place { path: path_text(&steps), ..Place::line(file, *line) }
                 }
             },
         }

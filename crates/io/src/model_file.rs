@@ -5,13 +5,13 @@ use std::path::Path;
 use crate::cgb::{self, Warning};
 use crate::mesh_file::ending;
 use crate::model::{Model, NamedShape, Shape};
-use crate::{IoError, Place, Reason, replace_file};
+use crate::{IoError, Place, Reason, replace_file, vtu};
 
 /// The largest model file that is read: 256 MiB, which is some three million control points.
 pub const MAX_FILE_BYTES: u64 = 1 << 28;
 
 /// The endings that [`read_model_file`] and [`write_model_file`] know.
-pub const MODEL_ENDINGS: &str = "json, cgb";
+pub const MODEL_ENDINGS: &str = "json, cgb, vtu";
 
 /// A model format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,6 +21,8 @@ pub enum ModelFormat {
     Json,
     /// [`cgb`]: one concave GB patch.
     Cgb,
+    /// [`vtu`]: Bézier cells.
+    Vtu,
 }
 
 impl ModelFormat {
@@ -30,7 +32,7 @@ impl ModelFormat {
     /// use casteljau_io::ModelFormat;
     /// assert!(matches!(ModelFormat::of_path("U.cgb".as_ref()), Ok(ModelFormat::Cgb)));
     /// let error = ModelFormat::of_path("pocket5.gbp".as_ref()).unwrap_err();
-    /// assert_eq!(error.to_string(), "pocket5.gbp: the format .gbp is not supported yet; supported: json, cgb");
+    /// assert_eq!(error.to_string(), "pocket5.gbp: the format .gbp is not supported yet; supported: json, cgb, vtu");
     /// ```
     pub fn of_path(path: &Path) -> Result<Self, IoError> {
         let ending = ending(path);
@@ -38,6 +40,7 @@ impl ModelFormat {
         match ending.to_ascii_lowercase().as_str() {
             "json" => Ok(Self::Json),
             "cgb" => Ok(Self::Cgb),
+            "vtu" => Ok(Self::Vtu),
             "gbp" => {
                 let reason = Reason::FormatNotYet { ending, supported: MODEL_ENDINGS };
                 Err(IoError::invalid(Place::file(file), reason))
@@ -64,7 +67,8 @@ pub fn read_model_file(path: &Path) -> Result<(Model, Vec<Warning>), IoError> {
     read_model_bytes(&bytes, &name, Some(format))
 }
 
-/// Reads a model from the content of a file; without a format, what starts like an object is JSON and the rest `.cgb`.
+/// Reads a model from the content of a file; without a format, what starts like an object is JSON, what starts like an XML
+/// element `.vtu` and the rest `.cgb`.
 ///
 /// `file` is the name for messages. A byte-order mark is skipped. Memory: linear in the content.
 /// Error: [`IoError::Invalid`] with file, line or path.
@@ -81,6 +85,11 @@ pub fn read_model_bytes(
     if bytes.len() as u64 > MAX_FILE_BYTES {
         return Err(IoError::invalid(Place::file(file), Reason::TooLong { limit: MAX_FILE_BYTES }));
     }
+    let start = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes).trim_ascii_start();
+    if format.map_or_else(|| start.starts_with(b"<"), |format| format == ModelFormat::Vtu) {
+        // Its data may be no text.
+        return Ok((vtu::read(bytes, file)?, Vec::new()));
+    }
     let text = str::from_utf8(bytes).map_err(|error| {
         let offset = error.valid_up_to();
         let line = 1 + bytes[..offset].iter().filter(|&&byte| byte == b'\n').count();
@@ -93,6 +102,7 @@ pub fn read_model_bytes(
     });
     match format {
         ModelFormat::Json => Ok((Model::read(text, file)?, Vec::new())),
+        ModelFormat::Vtu => Ok((vtu::read(bytes, file)?, Vec::new())),
         ModelFormat::Cgb => {
             let read = cgb::read(text, file)?;
             let shape = NamedShape::from_cgb(read.record, file, read.ribbon_lines);
@@ -103,7 +113,7 @@ pub fn read_model_bytes(
 
 /// Writes a model in the format that the path's ending names, [whole or not at all](replace_file).
 ///
-/// Error: unknown ending; a model that the format cannot hold (`.cgb` holds one patch, and not every one); a shape that
+/// Error: unknown ending; a model that the format cannot hold (`.cgb` holds one patch, and not every one; `.vtu` no GB patch); a shape that
 /// reading would refuse; or what the system says. Each names the path.
 pub fn write_model_file(path: &Path, model: &Model) -> Result<(), IoError> {
     let format = ModelFormat::of_path(path)?;
@@ -120,6 +130,7 @@ pub fn write_model(
         |what| Err(IoError::invalid(Place::default(), Reason::Unwritable { format: "cgb", what }));
     match (format, model.shapes.as_slice()) {
         (ModelFormat::Json, _) => model.write(out),
+        (ModelFormat::Vtu, _) => vtu::write(model, out),
         (ModelFormat::Cgb, [NamedShape { shape: Shape::GbPatch(record), .. }]) => {
             cgb::write(record, cgb::DEFAULT_TOLERANCE, out)
         }

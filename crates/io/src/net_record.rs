@@ -4,12 +4,15 @@ use casteljau_geom::glam::{DVec3, DVec4};
 use casteljau_shape::{
     BezierCurve, BezierPatch, BezierTriangle, Curve, LARGEST_COORDINATE, Patch, ShapeError, Triangle,
 };
+use casteljau_solid::{
+    BezierHexahedron, BezierTetrahedron, BezierWedge, Hexahedron, SolidError, Tetrahedron, Wedge,
+};
 
 use crate::Reason;
 use crate::place::Step;
 use crate::record::Fault;
 
-/// The control points of a curve, a patch or a triangle as a file gives them, flat, in the order of the net.
+/// The control points of a shape as a file gives them, flat, in the order of the net.
 ///
 /// Points with weights stay apart here: multiplying them would round, and a file would not be written as it was read.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,12 +54,9 @@ impl NetRecord {
 
     /// What the shape's constructor says of this net, at the field, the control point or the coordinate it is about.
     ///
-    /// `row` is the length of a row where the file nests rows.
-    pub(crate) fn fault(&self, error: ShapeError, row: Option<usize>) -> Fault {
-        let at = |field, place: usize| match row {
-            Some(row) => vec![Step::Field(field), Step::Index(place / row), Step::Index(place % row)],
-            None => vec![Step::Field(field), Step::Index(place)],
-        };
+    /// `rows` are the lengths of the rows that the file nests, as for [`nested`].
+    pub(crate) fn fault(&self, error: ShapeError, rows: &[usize]) -> Fault {
+        let at = |field, place| [vec![Step::Field(field)], nested(place, rows)].concat();
         let steps = match (error, self) {
             // Three is the weight; a coordinate that is in range itself is out of it by its weight.
             (ShapeError::Coordinate { place, axis, .. }, Self::Weighted { points, .. })
@@ -77,6 +77,27 @@ impl NetRecord {
             _ => vec![Step::Field(self.field())],
         };
         (steps, Reason::Shape(Box::new(error)))
+    }
+
+    /// As [`fault`](Self::fault), of what a solid's constructor says.
+    pub(crate) fn solid_fault(&self, error: SolidError, rows: &[usize]) -> Fault {
+        match error {
+            SolidError::Shape(error) => self.fault(error, rows),
+            _ => (vec![Step::Field(self.field())], Reason::Solid(Box::new(error))),
+        }
+    }
+}
+
+/// The steps to a control point in an array that nests rows: none for a flat one, the length of a row for rows of points,
+/// the number of rows and their length for rows of rows.
+pub(crate) fn nested(place: usize, rows: &[usize]) -> Vec<Step> {
+    match rows {
+        [] => vec![Step::Index(place)],
+        [_, inner @ ..] => {
+            // What one step of the outer array skips.
+            let skipped = rows.iter().fold(1_usize, |product, n| product.saturating_mul((*n).max(1)));
+            [vec![Step::Index(place / skipped)], nested(place % skipped, inner)].concat()
+        }
     }
 }
 
@@ -121,4 +142,7 @@ from_shapes! {
     Curve, BezierCurve<DVec4>;
     Patch, BezierPatch<DVec4>;
     Triangle, BezierTriangle<DVec4>;
+    Tetrahedron, BezierTetrahedron<DVec4>;
+    Hexahedron, BezierHexahedron<DVec4>;
+    Wedge, BezierWedge<DVec4>;
 }

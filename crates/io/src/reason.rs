@@ -1,7 +1,10 @@
 use casteljau_gb::GbError;
 use casteljau_geom::GeomError;
 use casteljau_shape::ShapeError;
+use casteljau_solid::SolidError;
 use thiserror::Error;
+
+use crate::vtu::VtuError;
 
 /// What is wrong inside a file, and why. Sides, rows, points and corners count from 0.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -36,22 +39,32 @@ pub enum Reason {
         /// What stands there.
         found: String,
     },
-    /// A kind of shape that exists and cannot be read yet.
-    #[error("shapes of kind `{kind}` are not supported yet; supported: {supported}")]
-    KindNotYet {
-        /// The kind.
-        kind: String,
-        /// The kinds that can be read.
-        supported: String,
-    },
     /// A kind of shape that does not exist.
     #[error("there is no kind `{kind}`; supported: {supported}")]
     KindUnknown {
         /// What stands there.
         kind: String,
-        /// The kinds that can be read.
+        /// The kinds that there are.
         supported: String,
     },
+    /// A part of a solid that is of another kind.
+    #[error("a shape of kind `{expected}` is needed here, not `{found}`")]
+    PartKind {
+        /// The kind that is needed.
+        expected: &'static str,
+        /// What stands there.
+        found: String,
+    },
+    /// Both angles of a twist.
+    #[error(
+        "`angle` (radians per layer of control points) and `rigid_angle` (radians in all) exclude each other"
+    )]
+    TwoAngles,
+    /// Neither angle of a twist.
+    #[error(
+        "there is no angle: `angle` (radians per layer of control points) or `rigid_angle` (radians in all) is needed"
+    )]
+    NoAngle,
     /// A form of GB patch that cannot be read yet.
     #[error("GB patches of form `{form}` are not supported yet; supported: `concave`")]
     FormNotYet {
@@ -255,12 +268,18 @@ pub enum Reason {
         /// The field that is too much.
         field: &'static str,
     },
+    /// What is wrong with a `.vtu` file.
+    #[error(transparent)]
+    Vtu(VtuError),
     /// An interval that is none.
     #[error(transparent)]
     Interval(GeomError),
     /// A description that is well-formed and no curve, patch or triangle.
     #[error("{0}")]
     Shape(#[source] Box<ShapeError>),
+    /// A description that is well-formed and no solid.
+    #[error("{0}")]
+    Solid(#[source] Box<SolidError>),
     /// A shape of another kind where a GB patch is asked for.
     #[error("a shape of kind `{kind}` is no GB patch")]
     NotGbPatch {

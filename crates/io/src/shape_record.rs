@@ -6,7 +6,7 @@ use casteljau_shape::{
     RationalCurve, RationalPatch, RationalTriangle, ShapeError, Triangle,
 };
 
-use crate::net_record::{homogeneous, interval, points, vectors};
+use crate::net_record::{homogeneous, interval, nested, points, vectors};
 use crate::place::Step;
 use crate::record::Fault;
 use crate::{Geometry, NetRecord, Reason};
@@ -75,7 +75,7 @@ impl CurveRecord {
             NetRecord::Homogeneous(points) => RationalCurve::from_homogeneous(homogeneous(points))
                 .map(|c| Geometry::RationalCurve(c.with_interval(over))),
         };
-        curve.map_err(|error| self.net.fault(error, None))
+        curve.map_err(|error| self.net.fault(error, &[]))
     }
 }
 
@@ -85,7 +85,7 @@ impl PowerCurveRecord {
         let curve = PowerCurve::new(vectors(&self.coefficients));
         curve
             .map(|c| Geometry::PowerCurve(c.with_interval(over)))
-            .map_err(|error| coefficient_fault(error, None))
+            .map_err(|error| coefficient_fault(error, &[]))
     }
 }
 
@@ -105,7 +105,7 @@ impl PatchRecord {
                     .map(|p| Geometry::RationalPatch(p.with_intervals(over)))
             }
         };
-        patch.map_err(|error| self.net.fault(error, Some(row_length(self.degrees))))
+        patch.map_err(|error| self.net.fault(error, &[row_length(self.degrees)]))
     }
 }
 
@@ -115,7 +115,7 @@ impl PowerPatchRecord {
         let patch = PowerPatch::new(self.degrees, vectors(&self.coefficients));
         patch
             .map(|p| Geometry::PowerPatch(p.with_intervals(over)))
-            .map_err(|error| coefficient_fault(error, Some(row_length(self.degrees))))
+            .map_err(|error| coefficient_fault(error, &[row_length(self.degrees)]))
     }
 }
 
@@ -131,7 +131,7 @@ impl TriangleRecord {
                     .map(Geometry::RationalTriangle)
             }
         };
-        triangle.map_err(|error| self.net.fault(error, None))
+        triangle.map_err(|error| self.net.fault(error, &[]))
     }
 }
 
@@ -145,16 +145,16 @@ fn both([u, v]: [[f64; 2]; 2]) -> Result<[Interval; 2], Fault> {
     Ok([interval(u, &at(0))?, interval(v, &at(1))?])
 }
 
-fn coefficient_fault(error: ShapeError, row: Option<usize>) -> Fault {
+fn coefficient_fault(error: ShapeError, rows: &[usize]) -> Fault {
     let mut steps = vec![Step::Field("coefficients")];
     if let ShapeError::Coordinate { place, axis, .. } = error {
-        steps.extend(row.map(|row| Step::Index(place / row)));
-        steps.extend([Step::Index(row.map_or(place, |row| place % row)), Step::Index(axis)]);
+        steps.extend(nested(place, rows));
+        steps.push(Step::Index(axis));
     }
     (steps, Reason::Shape(Box::new(error)))
 }
 
-fn ends(interval: Interval) -> [f64; 2] {
+pub(crate) fn ends(interval: Interval) -> [f64; 2] {
     [interval.start(), interval.end()]
 }
 

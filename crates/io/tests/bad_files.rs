@@ -18,7 +18,7 @@ fn every_case_is_refused_as_expected() {
     let mut paths: Vec<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     paths.retain(|path| path.extension().unwrap() != "expected");
     paths.sort();
-    assert!(paths.len() >= 120, "{} cases", paths.len());
+    assert!(paths.len() >= 200, "{} cases", paths.len());
     let mut wrong = String::new();
     for path in paths {
         let expected = fs::read_to_string(path.with_extension("expected")).unwrap();
@@ -44,7 +44,7 @@ fn files_that_are_not_there_or_not_files() {
     fs::create_dir(&path).unwrap();
     assert!(matches!(open(&path), Err(IoError::System { action: "read", .. })));
     for (name, part) in [
-        ("a.gbp", ".gbp is not supported yet; supported: json, cgb"),
+        ("a.gbp", ".gbp is not supported yet; supported: json, cgb, vtu"),
         ("a.stp", "known endings"),
         ("a", "``"),
     ] {
@@ -74,5 +74,9 @@ fn nesting_of_any_depth_ends_in_an_error() {
     ] {
         let message = read_model_bytes(text.as_bytes(), "deep.json", None).unwrap_err().to_string();
         assert!(message.starts_with("deep.json:1:") && message.len() < 400, "{message}");
+    }
+    for text in ["<a>".repeat(deep), "<a>".repeat(deep) + &"</a>".repeat(deep)] {
+        let message = read_model_bytes(text.as_bytes(), "deep.vtu", None).unwrap_err().to_string();
+        assert!(message.starts_with("deep.vtu:1:") && message.len() < 400, "{message}");
     }
 }

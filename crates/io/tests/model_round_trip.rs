@@ -11,7 +11,7 @@ use casteljau_io::{
     CenterWeightName, CoordinatesName, GbPatchRecord, Geometry, LayoutRecord, read_model_bytes,
     read_model_file, write_model_file,
 };
-use common::{classical, record};
+use common::{classical, record, solid};
 use proptest::prelude::*;
 
 /// Unlike `==`, tells −0 from 0.
@@ -58,6 +58,40 @@ proptest! {
             let refused = shape.patch_builder().unwrap_err().to_string();
             prop_assert!(refused.contains("is no GB patch"), "{}", refused);
         }
+    }
+
+    #[test]
+    fn solids(
+        shapes in prop::collection::vec((prop::option::of(any::<String>()), solid()), 1..4),
+    ) {
+        let shapes = shapes.into_iter().map(|(name, shape)| NamedShape::new(name, shape));
+        let model = Model { shapes: shapes.collect() };
+        let text = json(&model);
+        let again = Model::read(&text, "again.json").unwrap();
+        prop_assert_eq!(bits(&records(&again)), bits(&records(&model)));
+        prop_assert_eq!(json(&again), text);
+        for shape in &model.shapes {
+            let geometry = shape.to_geometry().unwrap();
+            prop_assert!(geometry.as_solid().is_some() && geometry.as_surface().is_none());
+        }
+    }
+
+    /// What a solid is described as describes the same solid.
+    #[test]
+    fn descriptions_of_solids(shape in solid()) {
+        let geometry = NamedShape::new(None, shape).to_geometry().unwrap();
+        let again = match &geometry {
+            Geometry::Tetrahedron(solid) => Shape::Tetrahedron(solid.into()),
+            Geometry::RationalTetrahedron(solid) => Shape::Tetrahedron(solid.into()),
+            Geometry::Hexahedron(solid) => Shape::Hexahedron(solid.into()),
+            Geometry::RationalHexahedron(solid) => Shape::Hexahedron(solid.into()),
+            Geometry::Wedge(solid) => Shape::Wedge(solid.into()),
+            Geometry::RationalWedge(solid) => Shape::Wedge(solid.into()),
+            Geometry::Constructed(solid) => Shape::from(solid.construction()),
+            _ => unreachable!("no solid"),
+        };
+        let again = NamedShape::new(None, again).to_geometry().unwrap();
+        prop_assert_eq!(format!("{again:?}"), format!("{geometry:?}"));
     }
 
     /// What a shape is described as describes the same shape.
@@ -242,6 +276,8 @@ fn published_models_are_read_as_they_are() {
 fn published_convex_models_are_refused_by_name() {
     if let Some(path) = published("pocket5.gbp") {
         let message = read_model_file(&path).unwrap_err().to_string();
-        assert!(message.ends_with("pocket5.gbp: the format .gbp is not supported yet; supported: json, cgb"));
+        assert!(
+            message.ends_with("pocket5.gbp: the format .gbp is not supported yet; supported: json, cgb, vtu")
+        );
     }
 }

@@ -20,6 +20,22 @@ pub enum MeshError {
         /// How many vertices there are.
         vertices: usize,
     },
+    /// A cell names a vertex that does not exist.
+    ///
+    /// ```
+    /// use casteljau_mesh::{Cell, MeshError, VolumeMesh, glam::DVec3};
+    /// let mesh = VolumeMesh { positions: vec![DVec3::ZERO; 4], cells: vec![Cell::Tetrahedron([0, 1, 2, 4])] };
+    /// assert_eq!(mesh.audit(), Err(MeshError::CellIndexOutOfRange { cell: 0, index: 4, vertices: 4 }));
+    /// ```
+    #[error("cell {cell} names vertex {index}, but there are only {vertices} vertices")]
+    CellIndexOutOfRange {
+        /// Number of the cell.
+        cell: usize,
+        /// The index it holds.
+        index: u32,
+        /// How many vertices there are.
+        vertices: usize,
+    },
     /// A coordinate of a position or of a normal is NaN or infinite.
     #[error("{what} {index} has the coordinate {value}, which is not finite")]
     NonFinite {

@@ -3,6 +3,7 @@
 //! A tessellator pushes vertices and triangles into a [`MeshSink`]; [`TriangleMesh`] is the ready-made one. The mesh
 //! answers for its topology ([`TriangleMesh::audit`], [`TriangleMesh::boundary_loops`]), its size
 //! ([`TriangleMesh::area`], [`TriangleMesh::signed_volume`]) and its distance to points ([`TriangleTree`]).
+//! [`VolumeMesh`] is the same for cells: tetrahedra, pyramids, wedges and hexahedra.
 //! Topology is by index: vertices that only share a place are joined by [`TriangleMesh::welded`] first.
 //!
 //! The crate knows nothing of Bézier shapes. Nothing here panics: a mesh's fields are public, so every question checks
@@ -28,6 +29,7 @@ pub use casteljau_geom::{BoundingBox, glam};
 
 mod audit;
 mod boundary;
+mod cell;
 mod distance;
 mod edges;
 mod error;
@@ -35,12 +37,17 @@ mod measure;
 mod sink;
 mod triangle_mesh;
 mod union_find;
+mod volume_audit;
+mod volume_mesh;
 mod weld;
 
 pub use audit::Audit;
+pub use cell::Cell;
 pub use distance::{Closest, Deviation, TriangleTree};
 pub use error::MeshError;
 pub use measure::MAX_COORDINATE;
 pub use sink::{CountingSink, MeshSink};
 pub use triangle_mesh::TriangleMesh;
+pub use volume_audit::VolumeAudit;
+pub use volume_mesh::VolumeMesh;
 pub use weld::Welded;

@@ -79,7 +79,7 @@ impl TriangleMesh {
 }
 
 /// Compensated sum (Neumaier): the error is that of the last rounding, as long as the terms number below 1/u.
-fn sum(terms: impl Iterator<Item = f64>) -> f64 {
+pub(crate) fn sum(terms: impl Iterator<Item = f64>) -> f64 {
     let (mut total, mut lost) = (0.0_f64, 0.0_f64);
     for term in terms {
         let next = total + term;

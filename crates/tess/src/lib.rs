@@ -21,6 +21,8 @@
 //!
 //! **Determinism.** The same input gives the same bits.
 
+pub use casteljau_geom as geom;
+
 mod chart;
 mod charted;
 mod draft;
@@ -38,6 +40,7 @@ mod side;
 mod side_curve;
 mod side_key;
 mod sizing;
+mod solid;
 mod surface;
 mod tessellate;
 mod topology;
@@ -47,4 +50,8 @@ pub use face::{AsFace, Face};
 pub use options::{DEFAULT_MAX_VERTICES, Density, Seams, TessellationOptions, no_progress};
 pub use report::{Quality, Report, SideId};
 pub use side::SideSamples;
+pub use solid::{
+    AsSolid, CellKind, FaceId, SectionOptions, SectionReport, SharedFaces, Skin, SkinFace, Solid, SolidField,
+    VolumeOptions, VolumeReport, iso_surface, slice, tessellate_solids, volume_mesh,
+};
 pub use tessellate::{tessellate, tessellate_into};

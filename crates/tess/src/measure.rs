@@ -41,7 +41,7 @@ pub(crate) fn distance_to_triangle(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
     distance_to_segment(p, a, b).min(distance_to_segment(p, b, c)).min(distance_to_segment(p, c, a))
 }
 
-fn distance_to_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
+pub(crate) fn distance_to_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
     let along = b - a;
     let square = along.length_squared();
     let t = if square > 0.0 { ((p - a).dot(along) / square).clamp(0.0, 1.0) } else { 0.0 };

@@ -57,7 +57,7 @@ impl SideKey {
 }
 
 /// The net with its common factor taken out as far as that is exact, or altogether where all weights are equal.
-fn scaled(net: &[DVec4]) -> Vec<DVec4> {
+pub(crate) fn scaled(net: &[DVec4]) -> Vec<DVec4> {
     let largest = net.iter().map(|p| p.w.abs()).fold(0.0, f64::max);
     let factor = match net.first() {
         Some(first) if net.iter().all(|p| p.w == first.w) => first.w,
@@ -74,12 +74,12 @@ fn with_plain_zeros(net: impl Iterator<Item = DVec4>) -> Vec<DVec4> {
     net.map(|p| p + DVec4::ZERO).collect()
 }
 
-fn least(a: Vec<DVec4>, b: Vec<DVec4>) -> Vec<DVec4> {
+pub(crate) fn least(a: Vec<DVec4>, b: Vec<DVec4>) -> Vec<DVec4> {
     let b = with_plain_zeros(b.into_iter());
     if compare(&a, &b) == Ordering::Greater { b } else { a }
 }
 
-fn compare(a: &[DVec4], b: &[DVec4]) -> Ordering {
+pub(crate) fn compare(a: &[DVec4], b: &[DVec4]) -> Ordering {
     let (a, b) = (a.iter().flat_map(|p| p.to_array()), b.iter().flat_map(|p| p.to_array()));
     // All are finite.
     a.partial_cmp(b).unwrap_or(Ordering::Equal)

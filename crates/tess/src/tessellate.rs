@@ -15,7 +15,7 @@ use crate::topology::NONE;
 use crate::{AsFace, Density, Seams, TessError, TessellationOptions};
 
 /// Least tolerance in units of the largest coordinate: 64 roundings.
-const LEAST_TOLERANCE: f64 = 32.0 * f64::EPSILON;
+pub(crate) const LEAST_TOLERANCE: f64 = 32.0 * f64::EPSILON;
 /// Samples of a patch: at first; then, if the mesh turns out to have more vertices than [`FEW`], an eighth as many as it has
 /// vertices, at least and at most so many.
 const PROBES: [usize; 3] = [48, 120, 1000];

@@ -14,23 +14,27 @@ use crate::record::Fault;
 use crate::{IoError, Place, Reason};
 
 mod anything;
+mod construction;
 mod curve;
 mod gb_patch;
 mod net;
 mod patch;
+mod solid;
 mod triangle;
 
-/// The kinds of the format that are still to come.
-const KINDS_NOT_YET: [&str; 6] =
-    ["tetrahedron", "hexahedron", "wedge", "transitional_solid", "rotational_solid", "twisted_solid"];
-
-/// The kinds that are read, with the words for them.
-const KINDS: [(&str, Kind); 6] = [
+/// The kinds, with the words for them.
+const KINDS: [(&str, Kind); 12] = [
     ("curve", Kind::Curve),
     ("power_curve", Kind::PowerCurve),
     ("patch", Kind::Patch),
     ("power_patch", Kind::PowerPatch),
     ("triangle", Kind::Triangle),
+    ("tetrahedron", Kind::Tetrahedron),
+    ("hexahedron", Kind::Hexahedron),
+    ("wedge", Kind::Wedge),
+    ("transitional_solid", Kind::Transitional),
+    ("rotational_solid", Kind::Rotational),
+    ("twisted_solid", Kind::Twisted),
     ("gb_patch", Kind::GbPatch),
 ];
 
@@ -41,6 +45,12 @@ enum Kind {
     Patch,
     PowerPatch,
     Triangle,
+    Tetrahedron,
+    Hexahedron,
+    Wedge,
+    Transitional,
+    Rotational,
+    Twisted,
     GbPatch,
 }
 
@@ -95,14 +105,7 @@ fn check_head(text: &str, file: &str) -> Result<Vec<Kind>, IoError> {
         let Some((_, kind)) = KINDS.iter().find(|(word, _)| *word == shape.kind) else {
             let supported = KINDS.map(|(word, _)| format!("`{word}`")).join(", ");
             let kind = shorten(&shape.kind, 40);
-            let not_yet = KINDS_NOT_YET.contains(&shape.kind.as_str());
-            return Err(at(
-                "kind",
-                match not_yet {
-                    true => Reason::KindNotYet { kind, supported },
-                    false => Reason::KindUnknown { kind, supported },
-                },
-            ));
+            return Err(at("kind", Reason::KindUnknown { kind, supported }));
         };
         kinds.push(*kind);
         match shape.form.as_deref() {
@@ -277,6 +280,12 @@ impl<'de> DeserializeSeed<'de> for Kind {
             Self::Patch => described::<patch::Patch, D>(json),
             Self::PowerPatch => described::<patch::PowerPatch, D>(json),
             Self::Triangle => described::<triangle::Triangle, D>(json),
+            Self::Tetrahedron => described::<solid::Tetrahedron, D>(json),
+            Self::Hexahedron => described::<solid::Hexahedron, D>(json),
+            Self::Wedge => described::<solid::Wedge, D>(json),
+            Self::Transitional => described::<construction::Transitional, D>(json),
+            Self::Rotational => described::<construction::Rotational, D>(json),
+            Self::Twisted => described::<construction::Twisted, D>(json),
             Self::GbPatch => described::<gb_patch::GbPatch, D>(json),
         }
     }

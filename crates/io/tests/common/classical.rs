@@ -7,16 +7,16 @@ use proptest::prelude::*;
 use super::number;
 
 /// Coordinates that a shape accepts, and products of two of which it accepts too.
-fn coordinate() -> impl Strategy<Value = f64> {
+pub fn coordinate() -> impl Strategy<Value = f64> {
     number().prop_map(|x| if x.abs() <= 1e70 { x } else { -0.0 })
 }
 
-fn points(count: usize) -> impl Strategy<Value = Vec<[f64; 3]>> {
+pub fn points(count: usize) -> impl Strategy<Value = Vec<[f64; 3]>> {
     prop::collection::vec([coordinate(), coordinate(), coordinate()], count)
 }
 
 /// The three forms; the last weight is not zero.
-fn net(count: usize) -> impl Strategy<Value = NetRecord> {
+pub fn net(count: usize) -> impl Strategy<Value = NetRecord> {
     let weights = prop::collection::vec(coordinate(), count - 1).prop_map(|mut weights| {
         weights.push(0.5);
         weights
@@ -33,7 +33,7 @@ fn net(count: usize) -> impl Strategy<Value = NetRecord> {
     ]
 }
 
-fn interval() -> impl Strategy<Value = [f64; 2]> {
+pub fn interval() -> impl Strategy<Value = [f64; 2]> {
     prop_oneof![
         Just([0.0, 1.0]),
         Just([-0.0, 1.0]),

@@ -2,12 +2,14 @@
 #![allow(dead_code, clippy::unwrap_used)]
 
 mod classical;
+mod solids;
 
 use casteljau_io::{
     CenterWeightName, CoordinatesName, CornerPointRecord, GbPatchRecord, LayoutRecord, RibbonRecord,
 };
 pub use classical::classical;
 use proptest::prelude::*;
+pub use solids::solid;
 
 /// Finite numbers that hunt for bad printing and reading: every exponent, neighbours of powers of ten and of integers,
 /// subnormals, both zeros.

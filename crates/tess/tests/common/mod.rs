@@ -1,6 +1,8 @@
 //! Patches to tessellate.
 #![allow(dead_code, clippy::unwrap_used)]
 
+pub mod solids;
+
 use std::path::PathBuf;
 
 use casteljau_domain::layout;

@@ -13,8 +13,7 @@ use crate::{CurveRecord, PowerCurveRecord, Reason};
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Curve {
-    #[serde(rename = "kind")]
-    _kind: String,
+    kind: Option<String>,
     name: Option<String>,
     degree: usize,
     control_points: Option<Vec<[f64; 3]>>,
@@ -29,6 +28,17 @@ impl Fields for Curve {
     }
 
     fn into_shape(self) -> Result<Shape, Fault> {
+        self.into_record().map(Shape::Curve)
+    }
+}
+
+impl Curve {
+    /// The word for it.
+    pub(super) fn kind(&self) -> Option<&str> {
+        self.kind.as_deref()
+    }
+
+    pub(super) fn into_record(self) -> Result<CurveRecord, Fault> {
         let degree = self.degree;
         check_degree(degree, &[Step::Field("degree")])?;
         let net = net(
@@ -36,7 +46,7 @@ impl Fields for Curve {
             flat("weights", self.weights, degree, degree + 1)?,
             flat("homogeneous", self.homogeneous, degree, degree + 1)?,
         )?;
-        Ok(Shape::Curve(CurveRecord { net, interval: self.interval.unwrap_or(UNIT) }))
+        Ok(CurveRecord { net, interval: self.interval.unwrap_or(UNIT) })
     }
 }
 

@@ -1,7 +1,7 @@
 //! Nets in either form, nested or flat.
 
 use casteljau_shape::ShapeError;
-use casteljau_shape::bernstein::MAX_DEGREE;
+use casteljau_shape::bernstein::{MAX_DEGREE, simplex_count};
 
 use crate::place::Step;
 use crate::record::Fault;
@@ -52,23 +52,66 @@ pub(super) fn flat<T>(
     }
 }
 
-/// The rows of a field, one behind the other, once their number and their lengths are as the degrees need them.
+/// What an array of a nested field holds: how many, after which degree, and how they are called.
+#[derive(Clone, Copy)]
+pub(super) struct Level {
+    degree: usize,
+    count: usize,
+    what: &'static str,
+}
+
+impl Level {
+    /// One more than the degree.
+    pub(super) fn along(degree: usize, what: &'static str) -> Self {
+        Self { degree, count: degree + 1, what }
+    }
+
+    /// A column for each control point of a triangle.
+    pub(super) fn columns(degree: usize) -> Self {
+        Self { degree, count: simplex_count::<3>(degree), what: "columns" }
+    }
+
+    fn check<T>(&self, given: &[T], steps: impl FnOnce() -> Vec<Step>) -> Result<(), Fault> {
+        let Self { degree, count: expected, what } = *self;
+        match given.len() {
+            found if found == expected => Ok(()),
+            found => Err((steps(), Reason::NetSize { what, degree, expected, found })),
+        }
+    }
+}
+
+/// The rows of a field, one behind the other, once their number is as `outer` says and their lengths fit the degree.
 pub(super) fn rows<T>(
     field: &'static str,
     given: Option<Vec<Vec<T>>>,
-    [m, n]: [usize; 2],
+    outer: Level,
+    degree: usize,
 ) -> Result<Option<Vec<T>>, Fault> {
     let Some(given) = given else { return Ok(None) };
-    let size = |steps, what, degree, found| {
-        Err((steps, Reason::NetSize { what, degree, expected: degree + 1, found }))
-    };
-    if given.len() != m + 1 {
-        return size(vec![Step::Field(field)], "rows", m, given.len());
-    }
-    if let Some((row, points)) = given.iter().enumerate().find(|(_, points)| points.len() != n + 1) {
-        return size(vec![Step::Field(field), Step::Index(row)], words(field), n, points.len());
+    outer.check(&given, || vec![Step::Field(field)])?;
+    let inner = Level::along(degree, words(field));
+    for (row, points) in given.iter().enumerate() {
+        inner.check(points, || vec![Step::Field(field), Step::Index(row)])?;
     }
     Ok(Some(given.into_iter().flatten().collect()))
+}
+
+/// The slabs of a field, one behind the other, once the numbers of slabs, rows and points fit the degrees.
+pub(super) fn slabs<T>(
+    field: &'static str,
+    given: Option<Vec<Vec<Vec<T>>>>,
+    [l, m, n]: [usize; 3],
+) -> Result<Option<Vec<T>>, Fault> {
+    let Some(given) = given else { return Ok(None) };
+    Level::along(l, "slabs").check(&given, || vec![Step::Field(field)])?;
+    let (rows, inner) = (Level::along(m, "rows"), Level::along(n, words(field)));
+    for (slab, lines) in given.iter().enumerate() {
+        rows.check(lines, || vec![Step::Field(field), Step::Index(slab)])?;
+        for (row, points) in lines.iter().enumerate() {
+            inner.check(points, || vec![Step::Field(field), Step::Index(slab), Step::Index(row)])?;
+        }
+    }
+    Ok(Some(given.into_iter().flatten().flatten().collect()))
 }
 
 /// What a field consists of.

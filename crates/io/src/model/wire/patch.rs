@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use super::Fields;
-use super::net::{check_degree, net, rows};
+use super::net::{Level, check_degree, net, rows};
 use crate::model::Shape;
 use crate::place::Step;
 use crate::record::Fault;
@@ -13,8 +13,7 @@ use crate::{PatchRecord, PowerPatchRecord, Reason};
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Patch {
-    #[serde(rename = "kind")]
-    _kind: String,
+    kind: Option<String>,
     name: Option<String>,
     degree: [usize; 2],
     control_points: Option<Vec<Vec<[f64; 3]>>>,
@@ -29,16 +28,28 @@ impl Fields for Patch {
     }
 
     fn into_shape(self) -> Result<Shape, Fault> {
-        let degrees = self.degree;
-        for (index, &degree) in degrees.iter().enumerate() {
+        self.into_record().map(Shape::Patch)
+    }
+}
+
+impl Patch {
+    /// The word for it.
+    pub(super) fn kind(&self) -> Option<&str> {
+        self.kind.as_deref()
+    }
+
+    pub(super) fn into_record(self) -> Result<PatchRecord, Fault> {
+        let degrees @ [m, n] = self.degree;
+        for (index, degree) in degrees.into_iter().enumerate() {
             check_degree(degree, &[Step::Field("degree"), Step::Index(index)])?;
         }
+        let outer = Level::along(m, "rows");
         let net = net(
-            rows("control_points", self.control_points, degrees)?,
-            rows("weights", self.weights, degrees)?,
-            rows("homogeneous", self.homogeneous, degrees)?,
+            rows("control_points", self.control_points, outer, n)?,
+            rows("weights", self.weights, outer, n)?,
+            rows("homogeneous", self.homogeneous, outer, n)?,
         )?;
-        Ok(Shape::Patch(PatchRecord { degrees, net, intervals: self.intervals.unwrap_or([UNIT; 2]) }))
+        Ok(PatchRecord { degrees, net, intervals: self.intervals.unwrap_or([UNIT; 2]) })
     }
 }
 
