@@ -58,8 +58,8 @@ fn mean<const D: usize>(
     of: impl Fn(&Q) -> (Q, Q),
 ) -> Q {
     let mut net = points.to_vec();
-    for axis in 0..D {
-        let [a, b] = intervals[axis].map(|t| of(&exact(t)));
+    for (axis, interval) in intervals.iter().enumerate() {
+        let [a, b] = interval.map(|t| of(&exact(t)));
         net = along(&net, &degrees, axis, |line| {
             let n = line.len() - 1;
             let pairs = |k: usize| [vec![a.clone(); n - k], vec![b.clone(); k]].concat();

@@ -1,5 +1,8 @@
 //! What is made once of the parameters of a grid, for all its rows and nets.
 
+// As in `simd.rs`: plain loops over registers.
+#![allow(clippy::needless_range_loop)]
+
 use super::horner::{Parameter, reversed_interval};
 use super::simd::{Lanes, WIDTH};
 use crate::{MAX_DEGREE, basis};
@@ -125,7 +128,7 @@ impl Columns {
         first: usize,
         curve: &[[f64; D]],
     ) -> [S::f64s; D] {
-        const { assert!(B <= MAX_ORDER && B <= TABULATED) };
+        const { assert!(B <= MAX_ORDER) };
         let height = TABULATED + 1 - B;
         let block = &self.basis[B][first / WIDTH * height * WIDTH..][..height * WIDTH];
         let mut sum = [simd.splat_f64s(0.0); D];

@@ -39,9 +39,9 @@
 //!   [`TriangleNet::partials`](crate::SimplexNet::partials).
 //! - Solids take the scheme in three quotients up to a total degree of 60, but the powers of all coordinates
 //!   where a quotient is so large that its powers might leave the range of numbers: up to degree 9 next to
-//!   u = 1, v = 1, w = 1 of a box, λ₃ = 0 of a wedge and λ₄ = 0 of a tetrahedron alone. Such places take some
-//!   ten times as long: turn a simplex so that its last face is not the one looked at. Degrees above go one by
-//!   one.
+//!   u = 1, v = 1, w = 1 of a box, λ₃ = 0 of a wedge and λ₄ = 0 of a tetrahedron alone. Such places are
+//!   summed a second time: turn a simplex so that its last face is not the one looked at. Degrees above go one
+//!   by one.
 //!
 //! **Limits.** Any finite parameter, degrees up to [`MAX_DEGREE`](crate::MAX_DEGREE), coordinates up to
 //! 10¹⁵⁰. The error is the crate's, `4(n + 2k + 2)·u·scale`, for parameters outside `[0, 1]` too.

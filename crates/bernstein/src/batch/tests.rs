@@ -196,15 +196,13 @@ fn triangles() {
     }
 }
 
+/// A batch of the net given first.
+type Plain<'a, const K: usize> = &'a dyn Fn(&[DVec3], &[DVec3], [&mut [DVec3]; K]);
+type Rational<'a> = &'a dyn Fn(&[DVec3], [&mut [DVec3]; 4]) -> Result<(), BernsteinError>;
+
 #[test]
 fn solids() {
-    fn check(
-        what: &str,
-        net: &[DVec4],
-        plain: &dyn Fn(&[DVec3], &[DVec3], [&mut [DVec3]; 4]),
-        values: &dyn Fn(&[DVec3], &[DVec3], [&mut [DVec3]; 1]),
-        rational: &dyn Fn(&[DVec3], [&mut [DVec3]; 4]) -> Result<(), BernsteinError>,
-    ) {
+    fn check(what: &str, net: &[DVec4], plain: Plain<'_, 4>, values: Plain<'_, 1>, rational: Rational<'_>) {
         for count in [1, 7, 8, 21] {
             let [u, v, w] = [3, 4, 5].map(|seed| parameters(count + seed as usize, seed));
             let at = |i: usize| DVec3::new(u[i + 3], v[i + 1], w[i]);
