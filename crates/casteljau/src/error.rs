@@ -19,6 +19,9 @@ pub enum Error {
     /// Curves, patches and triangles.
     #[error(transparent)]
     Shape(#[from] casteljau_shape::ShapeError),
+    /// Solids.
+    #[error(transparent)]
+    Solid(#[from] casteljau_solid::SolidError),
     /// Polygons, layouts, coordinates.
     #[error(transparent)]
     Domain(#[from] casteljau_domain::DomainError),

@@ -1,7 +1,7 @@
 //! Casteljau: a geometry kernel for Bézier shapes, in one dependency.
 //!
 //! Each crate of the kernel is a module here. Data flows one way: model file ([`io`]) → control nets → shape ([`shape`],
-//! [`gb`] over a [`domain`]) → jets ([`geom`], computed by [`bernstein`]) → mesh ([`tess`], [`mesh`]), report or picture
+//! [`solid`], [`gb`] over a [`domain`]) → jets ([`geom`], computed by [`bernstein`]) → mesh ([`tess`], [`mesh`]), report or picture
 //! ([`plot`]).
 //!
 //! ```
@@ -24,6 +24,7 @@ pub use casteljau_io as io;
 pub use casteljau_mesh as mesh;
 pub use casteljau_plot as plot;
 pub use casteljau_shape as shape;
+pub use casteljau_solid as solid;
 pub use casteljau_tess as tess;
 
 mod error;

@@ -9,6 +9,8 @@ mod designs;
 mod guide;
 #[path = "../examples/sample_models/plan.rs"]
 mod plan;
+#[path = "../examples/sample_models/solids.rs"]
+mod solids;
 
 use std::path::{Path, PathBuf};
 
@@ -29,7 +31,8 @@ fn patches(name: &str) -> Vec<ConcavePatch> {
 /// `cargo run -p casteljau --example sample_models -- models` mends it.
 #[test]
 fn the_files_are_what_the_generator_writes() {
-    for (name, design) in designs::all().into_iter().chain(classical::all().unwrap()) {
+    let all = designs::all().into_iter().chain(classical::all().unwrap()).chain(solids::all().unwrap());
+    for (name, design) in all {
         let path = folder().join(name);
         assert_eq!(read_model_file(&path).unwrap().0, design, "{name}");
         let mut text = Vec::new();
@@ -133,6 +136,57 @@ fn quadrics_are_what_their_names_say() {
                 };
                 assert!((from_tube.length() - 1.0).abs() < 1e-14, "{name} at ({u}, {v}): {p}");
             }
+        }
+    }
+}
+
+#[test]
+fn solids_are_what_their_names_say() {
+    use std::f64::consts::{FRAC_PI_4, PI};
+    let solid = |name: &str| {
+        let (model, _) = read_model_file(&folder().join(name)).unwrap();
+        assert_eq!(model.shapes.len(), 1);
+        model.shapes[0].to_geometry().unwrap()
+    };
+    let at = |name: &str, at: [f64; 3]| solid(name).as_solid().unwrap().try_point(at).unwrap();
+    let near = |p: DVec3, exact: DVec3| assert!(p.distance(exact) < 1e-14, "{p} instead of {exact}");
+    for t in [0.1, 0.35, 0.5, 0.9] {
+        for side in [[0.0, t], [1.0, t], [t, 0.0], [t, 1.0]] {
+            let [u, v] = side;
+            assert!((at("ball.json", [u, v, t]).length() - 1.0).abs() < 1e-14);
+            let cone = at("cone.json", [u, v, t]);
+            assert!((cone.truncate().length() - (1.0 - t)).abs() < 1e-14 && (cone.z - 2.0 * t).abs() < 1e-14);
+            // The disc moves along the circle around (2, 0, 0).
+            let center = at("swept_disc.json", [0.5, 0.5, t]);
+            let across = at("swept_disc.json", [u, v, t]) - at("swept_disc.json", [0.0, 0.0, t]) + DVec3::X;
+            assert!((across.length() - 1.0).abs() < 1e-14 && across.z.abs() < 1e-14, "{center} {across}");
+        }
+        let corner = at("swept_disc.json", [0.0, 0.0, t]) - DVec3::X;
+        assert!((corner.distance(2.0 * DVec3::X) - 2.0).abs() < 1e-14, "{corner}");
+        let ring = at("quarter_ring.json", [0.0, t, 1.0 - t]);
+        assert!((ring.truncate().length() - (1.0 + t)).abs() < 1e-14 && ring.z == 0.0);
+        let octant = at("ball_octant.json", [t, 0.6 * (1.0 - t), 0.4 * (1.0 - t)]);
+        assert!((octant.length() - 1.0).abs() < 1e-14);
+        let rigid = at("rigid_twist.json", [1.0, 1.0, t]);
+        assert!((rigid.truncate().length() - 2_f64.sqrt()).abs() < 1e-14);
+    }
+    near(at("ball_octant.json", [0.0, 0.0, 0.25]), 0.25 * DVec3::Z);
+    near(at("rigid_twist.json", [1.0, 1.0, 1.0]), DVec3::new(-1.0, 1.0, 3.0));
+    let shrunk = (PI / 12.0).cos().powi(3) * 2_f64.sqrt();
+    near(at("twisted_prism.json", [1.0, 1.0, 0.5]), DVec3::new(0.0, shrunk, 1.5));
+    near(at("quarter_ring.json", [0.0, 1.0, 0.5]), 2.0 * DVec3::new(FRAC_PI_4.cos(), FRAC_PI_4.sin(), 0.0));
+    // None of them is inside out.
+    for (name, _) in solids::all().unwrap() {
+        let geometry = solid(name);
+        let solid = geometry.as_solid().unwrap();
+        for t in 0..64 {
+            let [x, y, z] = [t % 4, t / 4 % 4, t / 16].map(|i| (i as f64 + 0.5) / 4.0);
+            let place = match geometry {
+                Geometry::RationalTetrahedron(_) => [x, (1.0 - x) * y, (1.0 - x) * (1.0 - y) * z],
+                Geometry::RationalWedge(_) => [x, (1.0 - x) * y, z],
+                _ => [x, y, z],
+            };
+            assert!(solid.try_jacobian(place).unwrap() > 0.0, "{name} at {place:?}");
         }
     }
 }

@@ -22,7 +22,7 @@ pub struct Arguments {
 pub enum Command {
     /// Say what is in a model: kinds, degrees, bounds, sides, layers, area, volume.
     Info(Selection),
-    /// Evaluate points, derivatives, normals and curvatures.
+    /// Evaluate points, derivatives, normals, curvatures and Jacobians.
     Eval(Eval),
     /// Show the domain polygon of GB patches and their barycentric coordinates.
     Domain(Domain),
@@ -30,7 +30,7 @@ pub enum Command {
     Mesh(Mesh),
     /// Measure the continuity along sides and between shapes; exit status 1 where a promise is broken.
     Check(Check),
-    /// Convert between model formats (.json, .cgb), and to Bézier cells for VTK (.vtu).
+    /// Convert between model formats: .json, .cgb, and Bézier cells of VTK (.vtu).
     Convert(Convert),
     /// Draw a picture.
     Plot(Plot),
@@ -39,7 +39,7 @@ pub enum Command {
 /// A model, or one of its shapes.
 #[derive(Args)]
 pub struct Selection {
-    /// Model file (.json or .cgb), `-` for standard input.
+    /// Model file (.json, .cgb or .vtu), `-` for standard input.
     pub model: PathBuf,
     /// The shape, counted from 0; all of them by default.
     #[arg(long, value_name = "N")]
@@ -51,8 +51,9 @@ pub struct Selection {
 
 #[derive(Args)]
 pub struct Places {
-    /// A parameter: u,v of patches, λ1,λ2 of triangles, t of curves; may be repeated, and negative.
-    #[arg(long, value_name = "U[,V]", allow_hyphen_values = true, conflicts_with = "params")]
+    /// A parameter: t of curves; u,v of patches, λ1,λ2 of triangles; u,v,w of hexahedra, λ1,λ2,λ3 of tetrahedra, λ1,λ2,w of
+    /// wedges; may be repeated, and negative.
+    #[arg(long, value_name = "U[,V[,W]]", allow_hyphen_values = true, conflicts_with = "params")]
     pub at: Vec<String>,
     /// A file of parameters, one a line, numbers apart by commas; `-` for standard input.
     #[arg(long, value_name = "FILE")]
@@ -141,7 +142,7 @@ pub struct Convert {
     /// Curves and patches in this basis: `bezier` makes power_curve and power_patch curve and patch, `power` the other way.
     #[arg(long, value_enum, value_name = "BASIS")]
     pub to: Option<BasisName>,
-    /// Raise the degrees of curves, patches and triangles by this much, which changes no point.
+    /// Raise the degrees of Bézier shapes by this much, which changes no point.
     #[arg(long, value_name = "BY")]
     pub elevate: Option<usize>,
     /// Format for standard output.

@@ -1,28 +1,18 @@
 //! `casteljau convert`: the same shapes in another file, in another basis, of another degree.
 
-use std::path::Path;
-
 use casteljau::io::model::{Model, NamedShape, Shape};
-use casteljau::io::{Geometry, IoError, ModelFormat, vtu, write_model};
-use casteljau::shape::ShapeError;
+use casteljau::io::{Geometry, ModelFormat, write_model};
+use casteljau::solid::SolidError;
 
 use crate::arguments::{BasisName, Convert, ModelFormatName};
 use crate::failure::Failure;
 use crate::input::{Input, is_dash};
 use crate::output::write;
 
-/// The endings of what can be written.
-const ENDINGS: &str = "json, cgb, vtu";
-
-enum Format {
-    Model(ModelFormat),
-    Vtu,
-}
-
 pub fn run(options: &Convert) -> Result<(), Failure> {
     let format = match is_dash(&options.output) {
         true => named(options.format),
-        false => of_path(&options.output)?,
+        false => ModelFormat::of_path(&options.output)?,
     };
     let input = Input::read(&options.selection)?;
     let mut shapes = Vec::with_capacity(input.shapes.len());
@@ -37,38 +27,22 @@ pub fn run(options: &Convert) -> Result<(), Failure> {
     }
     let model = Model { shapes };
     // What cannot be written is placed in the input, which a file that is being written does not know.
-    if let Format::Vtu = format {
-        vtu::write(&model, &mut std::io::sink())?;
+    if format == ModelFormat::Vtu {
+        write_model(&model, format, &mut std::io::sink())?;
     }
-    write(&options.output, |out| match format {
-        Format::Model(format) => write_model(&model, format, out),
-        Format::Vtu => vtu::write(&model, out),
-    })
+    write(&options.output, |out| write_model(&model, format, out))
 }
 
-fn named(format: ModelFormatName) -> Format {
+fn named(format: ModelFormatName) -> ModelFormat {
     match format {
-        ModelFormatName::Json => Format::Model(ModelFormat::Json),
-        ModelFormatName::Cgb => Format::Model(ModelFormat::Cgb),
-        ModelFormatName::Vtu => Format::Vtu,
-    }
-}
-
-fn of_path(path: &Path) -> Result<Format, Failure> {
-    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("vtu")) {
-        return Ok(Format::Vtu);
-    }
-    match ModelFormat::of_path(path) {
-        Ok(format) => Ok(Format::Model(format)),
-        Err(IoError::Ending { file, ending, .. }) => {
-            Err(IoError::Ending { file, ending, known: ENDINGS.into() }.into())
-        }
-        Err(error) => Err(error.into()),
+        ModelFormatName::Json => ModelFormat::Json,
+        ModelFormatName::Cgb => ModelFormat::Cgb,
+        ModelFormatName::Vtu => ModelFormat::Vtu,
     }
 }
 
 /// What a shape refuses, at its place in the file.
-fn placed(named: &NamedShape) -> impl Fn(ShapeError) -> Failure + use<> {
+fn placed<E: std::fmt::Display>(named: &NamedShape) -> impl Fn(E) -> Failure + use<E> {
     let place = named.place();
     move |error| Failure::Bad(format!("{place}: {error}"))
 }
@@ -90,6 +64,7 @@ fn in_basis(named: NamedShape, basis: BasisName) -> Result<NamedShape, Failure> 
             Geometry::RationalCurve(_) => return refused("a rational curve"),
             Geometry::RationalPatch(_) => return refused("a rational patch"),
             Geometry::Triangle(_) | Geometry::RationalTriangle(_) => return refused("a triangle"),
+            shape if shape.as_solid().is_some() => return refused("a solid"),
             _ => return Ok(named),
         },
     };
@@ -117,8 +92,29 @@ fn elevated(named: NamedShape, by: usize) -> Result<NamedShape, Failure> {
             Geometry::RationalTriangle(triangle) => {
                 Shape::Triangle((&triangle.elevated(by).map_err(&refuse)?).into())
             }
-            _ => return Ok(named),
+            solid => match elevated_solid(&solid, by).transpose().map_err(placed(&named))? {
+                Some(shape) => shape,
+                None => return Ok(named),
+            },
         },
     };
     Ok(NamedShape::new(named.name, shape))
+}
+
+/// A solid with its degrees raised; one that is made of patches and curves becomes the hexahedron that it is.
+fn elevated_solid(solid: &Geometry, by: usize) -> Option<Result<Shape, SolidError>> {
+    Some(match solid {
+        Geometry::Tetrahedron(solid) => solid.elevated(by).map(|s| Shape::Tetrahedron((&s).into())),
+        Geometry::RationalTetrahedron(solid) => solid.elevated(by).map(|s| Shape::Tetrahedron((&s).into())),
+        Geometry::Hexahedron(solid) => solid.elevated([by; 3]).map(|s| Shape::Hexahedron((&s).into())),
+        Geometry::RationalHexahedron(solid) => {
+            solid.elevated([by; 3]).map(|s| Shape::Hexahedron((&s).into()))
+        }
+        Geometry::Wedge(solid) => solid.elevated([by; 2]).map(|s| Shape::Wedge((&s).into())),
+        Geometry::RationalWedge(solid) => solid.elevated([by; 2]).map(|s| Shape::Wedge((&s).into())),
+        Geometry::Constructed(solid) => {
+            solid.hexahedron().elevated([by; 3]).map(|s| Shape::Hexahedron((&s).into()))
+        }
+        _ => return None,
+    })
 }

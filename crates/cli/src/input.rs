@@ -114,10 +114,10 @@ fn read(path: &Path, name: &str) -> Result<Model, Failure> {
     Ok(model)
 }
 
-/// An object, as JSON has it, or a number, as `.cgb` begins with one.
+/// An object, as JSON has it, an element, as `.vtu` begins with one, or a number, as `.cgb` does.
 fn looks_like_model(bytes: &[u8]) -> bool {
     let first = bytes.iter().find(|byte| !byte.is_ascii_whitespace());
-    first.is_none_or(|byte| *byte == b'{' || byte.is_ascii_digit())
+    first.is_none_or(|byte| matches!(byte, b'{' | b'<') || byte.is_ascii_digit())
 }
 
 pub fn cannot_read(name: &str, error: &std::io::Error) -> Failure {

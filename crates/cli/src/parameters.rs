@@ -23,6 +23,9 @@ impl Wanted {
     pub const CURVE: Self = Self { count: 1, words: "one number, t" };
     pub const SURFACE: Self = Self { count: 2, words: "two numbers, u,v" };
     pub const TRIANGLE: Self = Self { count: 2, words: "two numbers, λ1,λ2" };
+    pub const BOX: Self = Self { count: 3, words: "three numbers, u,v,w" };
+    pub const TETRAHEDRON: Self = Self { count: 3, words: "three numbers, λ1,λ2,λ3" };
+    pub const WEDGE: Self = Self { count: 3, words: "three numbers, λ1,λ2,w" };
 }
 
 /// A parameter, and the line that it stands on.

@@ -3,8 +3,8 @@
 use casteljau::gb::ConcavePatch;
 use casteljau::io::Geometry;
 use casteljau::plot::{
-    CurveShape, CurveStyle, DomainStyle, Isolines, PatchStyle, PlotError, Shading, SurfaceShape,
-    SurfaceStyle, View, curve_picture, domain_picture, patch_picture, surface_picture,
+    CurveShape, CurveStyle, DomainStyle, Isolines, PatchStyle, PlotError, Shading, SolidShape, SurfaceShape,
+    SurfaceStyle, View, curve_picture, domain_picture, patch_picture, solid_picture, surface_picture,
 };
 
 use crate::arguments::{IsolinesName, Plot, ShadingName, ViewName};
@@ -50,6 +50,11 @@ fn shapes(options: &Plot, input: &Input) -> Result<Picture, Failure> {
         let style = surface_style(options)?;
         return Ok(surfaces.and_then(|surfaces| surface_picture(&surfaces, &style)));
     }
+    if shapes.iter().all(|shape| shape.as_solid().is_some()) {
+        refuse(options.construction.is_some(), "--construction is drawn for curves, patches and triangles")?;
+        let solids: Vec<SolidShape> = shapes.iter().filter_map(solid).collect();
+        return Ok(solid_picture(&solids, &surface_style(options)?));
+    }
     let patches: Vec<ConcavePatch> = shapes.iter().filter_map(Geometry::as_gb_patch).cloned().collect();
     if patches.len() == shapes.len() {
         refuse(options.construction.is_some(), "--construction is drawn for curves, patches and triangles")?;
@@ -57,7 +62,7 @@ fn shapes(options: &Plot, input: &Input) -> Result<Picture, Failure> {
         return Ok(patch_picture(&patches, &patch_style(options)));
     }
     Err(Failure::Bad(format!(
-        "{}: curves, surfaces and GB patches are drawn in pictures of their own: choose a shape with --shape",
+        "{}: curves, surfaces, solids and GB patches are drawn in pictures of their own: choose a shape with --shape",
         input.name
     )))
 }
@@ -78,6 +83,19 @@ fn surface(shape: &Geometry) -> Option<Result<SurfaceShape, PlotError>> {
         Geometry::PowerPatch(patch) => Some(patch.try_into().map_err(PlotError::from)),
         Geometry::Triangle(triangle) => Some(Ok(triangle.into())),
         Geometry::RationalTriangle(triangle) => Some(Ok(triangle.into())),
+        _ => None,
+    }
+}
+
+fn solid(shape: &Geometry) -> Option<SolidShape> {
+    match shape {
+        Geometry::Tetrahedron(solid) => Some(solid.into()),
+        Geometry::RationalTetrahedron(solid) => Some(solid.into()),
+        Geometry::Hexahedron(solid) => Some(solid.into()),
+        Geometry::RationalHexahedron(solid) => Some(solid.into()),
+        Geometry::Wedge(solid) => Some(solid.into()),
+        Geometry::RationalWedge(solid) => Some(solid.into()),
+        Geometry::Constructed(solid) => Some(solid.hexahedron().into()),
         _ => None,
     }
 }

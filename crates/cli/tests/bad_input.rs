@@ -40,7 +40,7 @@ fn files_that_are_no_models() {
     refused(
         "kind.json",
         br#"{"casteljau": 1, "shapes": [{"kind": "rotational_solid"}]}"#,
-        &["rotational_solid", "not supported yet"],
+        &["shapes[0]", "missing field `curve`"],
     );
     refused(
         "kind.json",
@@ -49,6 +49,7 @@ fn files_that_are_no_models() {
     );
     refused("none.json", br#"{"casteljau": 1, "shapes": []}"#, &["no shapes"]);
     refused("part.step", b"ISO-10303-21;", &["the ending `step` is not known"]);
+    refused("cells.vtu", b"<VTKFile type=\"PolyData\" version=\"2.2\"/>", &[":1: ", "PolyData"]);
     refused("patch.gbp", b"5 3", &[".gbp is not supported yet"]);
     refused("many.cgb", b"0 1 0.2 0\n1000000000\n0 0 0\n3 2\n", &[":2: ", "1000000000 sides are promised"]);
 }

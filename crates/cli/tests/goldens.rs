@@ -111,6 +111,14 @@ fn check(kind: &str, case: &Value, key: &str) -> usize {
             let off = (number(&line["weight"]) - number(&sample["weight"])).abs();
             assert!(!inside || off <= rounding_bound(degree, 0, scale), "{what}: weight off by {off:e}");
         }
+        if let Some(exact) = sample.get("jacobian_det").filter(|_| line["jacobian"].is_number()) {
+            let scale: f64 = ["1,0,0", "0,1,0", "0,0,1"]
+                .map(|orders| flat(&sample["scale"][orders]).iter().fold(0.0, |a: f64, b| a.max(*b)))
+                .iter()
+                .product();
+            let off = (number(&line["jacobian"]) - number(exact)).abs();
+            assert!(off <= 12.0 * rounding_bound(degree, 1, scale), "{what}: Jacobian off by {off:e}");
+        }
         for (field, exact) in [("gaussian", &sample["gaussian"]), ("mean", &sample["mean"])] {
             // Not of nearly singular points, whose curvatures no one can tell from these derivatives.
             if let (Some(got), Some(exact)) = (line[field].as_f64(), exact.as_str()) {
@@ -129,7 +137,11 @@ fn check(kind: &str, case: &Value, key: &str) -> usize {
     poles
 }
 
+/// All numbers of nested lists; none of what is not there.
 fn flat(value: &Value) -> Vec<f64> {
+    if value.is_null() {
+        return Vec::new();
+    }
     value.as_array().map_or_else(|| vec![number(value)], |list| list.iter().flat_map(flat).collect())
 }
 
@@ -159,5 +171,62 @@ fn triangles() {
     for case in cases("triangles.json") {
         // Only the values have a scale there; the derivatives are held by the tests of the crate `shape`.
         check("triangle", &case, "lambda_first");
+    }
+}
+
+#[test]
+fn hexahedra_and_tetrahedra() {
+    for case in cases("tensor_solids.json") {
+        assert_eq!(check("hexahedron", &case, "params"), 0);
+    }
+    for case in cases("tetrahedra.json") {
+        check("tetrahedron", &case, "lambda_first");
+    }
+}
+
+/// The solids made of patches and curves: point, weight and Jacobian.
+#[test]
+fn constructions() {
+    for case in cases("constructions.json") {
+        let inputs = &case["inputs"];
+        let degree = |net: &Value| net.as_array().unwrap().len() - 1;
+        let curve =
+            json!({"degree": degree(&inputs["Q"]), "control_points": inputs["Q"], "weights": inputs["r"]});
+        let patch = || {
+            let degrees = [degree(&inputs["P"]), degree(&inputs["P"][0])];
+            json!({"kind": "patch", "degree": degrees, "control_points": inputs["P"], "weights": inputs["s"]})
+        };
+        let shape = match case["kind"].as_str().unwrap() {
+            "rotational" => json!({"kind": "rotational_solid", "curve": curve}),
+            "transitional" => json!({"kind": "transitional_solid", "patch": patch(), "curve": curve}),
+            "twisted" => {
+                let angle = &inputs["alpha_f64"];
+                json!({"kind": "twisted_solid", "patch": patch(), "curve": curve, "angle": angle})
+            }
+            kind => panic!("{kind}"),
+        };
+        let model = json!({"casteljau": 1, "shapes": [shape]}).to_string();
+        let (_folder, name) = file("case.json", model.as_bytes());
+        for sample in case["samples"].as_array().unwrap() {
+            let params: Vec<String> = flat(&sample["params"]).iter().map(f64::to_string).collect();
+            let run = casteljau(&["eval", &name, "--json", "--order", "1", "--at", &params.join(",")]);
+            let line = run.good().json().remove(0);
+            let what = format!("{} at {}", case["name"], sample["params"]);
+            let near = |got: &Value, exact: &Value, size: f64| {
+                for (got, exact) in flat(got).into_iter().zip(flat(exact)) {
+                    assert!((got - exact).abs() <= 1e-13 * size, "{what}: {got:e} instead of {exact:e}");
+                }
+            };
+            let size =
+                flat(&inputs["Q"]).iter().chain(&flat(&inputs["P"])).fold(1.0, |a: f64, b| a.max(b.abs()));
+            near(&line["point"], &sample["point"], 10.0 * size);
+            for (orders, field) in [("1,0,0", "du"), ("0,1,0", "dv"), ("0,0,1", "dw")] {
+                near(&line["partials"][orders], &sample[field], 100.0 * size);
+            }
+            near(&line["jacobian"], &sample["jacobian_det"], 1000.0 * size.powi(3));
+            if line["weight"].is_number() {
+                near(&line["weight"], &sample["weight"], 10.0);
+            }
+        }
     }
 }

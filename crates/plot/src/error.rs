@@ -1,6 +1,7 @@
 use casteljau_domain::DomainError;
 use casteljau_gb::GbError;
 use casteljau_shape::ShapeError;
+use casteljau_solid::SolidError;
 
 /// Why a picture cannot be drawn.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -53,6 +54,17 @@ pub enum PlotError {
         /// How many there are.
         count: usize,
     },
+    /// De Casteljau's construction is drawn for curves and surfaces only.
+    ///
+    /// ```
+    /// use casteljau_plot::{PlotError, SolidShape, SurfaceStyle, solid_picture};
+    /// use casteljau_solid::Hexahedron;
+    /// let style = SurfaceStyle { construction: Some([0.5, 0.5]), ..SurfaceStyle::default() };
+    /// let refused = solid_picture(&[SolidShape::from(&Hexahedron::unit_cube())], &style);
+    /// assert_eq!(refused, Err(PlotError::NoConstruction));
+    /// ```
+    #[error("de Casteljau's construction is not drawn for solids")]
+    NoConstruction,
     /// A coordinate in the picture left the range of numbers.
     #[error("a point of the picture is not finite")]
     NotFinite,
@@ -71,6 +83,19 @@ pub enum PlotError {
     /// ```
     #[error("{0}")]
     Shape(#[from] ShapeError),
+    /// A solid could not be evaluated, or has a face without weight.
+    ///
+    /// ```
+    /// use casteljau_plot::{PlotError, SolidShape, SurfaceStyle, solid_picture};
+    /// use casteljau_solid::{RationalTetrahedron, geom::glam::DVec3};
+    /// let corners = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::ZERO];
+    /// let solid = RationalTetrahedron::new(1, &corners, &[0.0, 0.0, 0.0, 1.0])?;
+    /// let refused = solid_picture(&[SolidShape::from(&solid)], &SurfaceStyle::default());
+    /// assert!(matches!(refused, Err(PlotError::Solid(_))));
+    /// # Ok::<(), casteljau_solid::SolidError>(())
+    /// ```
+    #[error("{0}")]
+    Solid(#[from] SolidError),
     /// The domain could not be triangulated or its coordinates evaluated.
     #[error("domain: {0}")]
     Domain(#[from] DomainError),

@@ -6,6 +6,7 @@
 //!   curves and control nets, what lies behind hidden by what lies in front.
 //! - [`curve_picture`]: curves with control polygons, curvature combs, Frenet frames, and de Casteljau's construction.
 //! - [`surface_picture`]: tensor-product patches and triangles in the same look, with de Casteljau's construction.
+//! - [`solid_picture`]: hexahedra, tetrahedra and wedges by their faces, in the same look.
 //!
 //! Coordinates in the files are pixels with two decimals, always finite; the same input gives the same bytes.
 //!
@@ -23,6 +24,7 @@
 
 mod canvas;
 mod color;
+mod construction;
 mod contour;
 mod curve_picture;
 mod decoration;
@@ -33,6 +35,7 @@ mod sampling;
 mod scene;
 mod shade;
 mod shapes;
+mod solid_picture;
 mod surface_picture;
 mod view;
 
@@ -41,6 +44,7 @@ pub use domain_picture::{DomainStyle, domain_picture};
 pub use error::PlotError;
 pub use patch_picture::{Isolines, PatchStyle, Shading, patch_picture};
 pub use shapes::{CurveShape, SurfaceShape};
+pub use solid_picture::{SolidShape, solid_picture};
 pub use surface_picture::{SurfaceStyle, surface_picture};
 pub use view::View;
 

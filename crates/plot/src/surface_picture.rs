@@ -2,14 +2,12 @@
 
 use casteljau_geom::BoundingBox;
 use casteljau_geom::glam::{DVec2, DVec3, DVec4};
-use casteljau_shape::bernstein::{
-    TensorNet, TriangleNet, last_barycentric, multi_indices, scheme_count, simplex_index, tensor_scheme_count,
-};
-use casteljau_shape::{ParametricSurface, PatchEdge, RationalPatch, RationalTriangle, ShapeError};
+use casteljau_shape::bernstein::{multi_indices, simplex_index};
+use casteljau_shape::{ParametricSurface, PatchEdge, ShapeError};
 
 use crate::canvas::{Frame, Margins, extent, finish, text};
-use crate::color::{ACCENT, FAINT, INK, NETS, diverging};
-use crate::curve_picture::levels;
+use crate::color::{FAINT, INK, NETS, diverging};
+use crate::construction::Construction;
 use crate::decoration::{axes_and_scale, color_bar, short};
 use crate::domain_picture::check_counts;
 use crate::patch_picture::Shading;
@@ -81,25 +79,98 @@ struct Sampled<'a> {
 /// ```
 pub fn surface_picture(shapes: &[SurfaceShape], style: &SurfaceStyle) -> Result<String, PlotError> {
     check_counts(style.width, style.levels, style.triangles)?;
-    let count = style.triangles / shapes.len().max(1);
-    let parts = shapes.iter().map(|shape| Sampled::new(shape, count)).collect::<Result<Vec<_>, _>>()?;
-    let mut shown: Vec<DVec3> = parts.iter().flat_map(|part| part.points.iter().copied()).collect();
-    let size = BoundingBox::from_points(shown.iter().copied()).ok_or(PlotError::Nothing)?.diagonal();
-    if style.net {
-        shown.extend(shapes.iter().flat_map(SurfaceShape::net).filter_map(in_space));
-    }
-    let constructions: Vec<Construction> = match style.construction {
+    let nets = shapes.iter().map(|shape| Net { points: shape.net(), lines: shape.net_lines() }).collect();
+    let constructions = match style.construction {
         Some(at) => shapes.iter().map(|shape| Construction::new(shape, at)).collect::<Result<_, _>>()?,
         None => Vec::new(),
     };
-    shown.extend(constructions.iter().flat_map(Construction::points));
-    let margins = Margins { side: 30.0, top: 66.0, bottom: 92.0 };
-    let frame = Frame::new(extent(shown.iter().map(|&p| style.view.project(p)))?, style.width, &margins)?;
+    let whole = Whole {
+        surfaces: shapes,
+        nets,
+        // The net of a single surface lies before it; among several, nets are hidden like everything else.
+        net_in_front: shapes.len() == 1,
+        constructions,
+        closed: is_closed(shapes),
+        title: title(shapes, style),
+    };
+    whole.picture(style)
+}
 
-    // Of a closed body the far side is never seen: what lies on it is left out.
-    let hidden = (style.shading != Shading::None && is_closed(shapes)).then_some(style.view);
-    let longest = parts.iter().map(Sampled::longest_edge).fold(0.0, f64::max);
-    let mut scene = Scene::new(style.view, longest.max(size / 200.0));
+/// The control points of a shape and the lines between them.
+pub(crate) struct Net {
+    pub(crate) points: Vec<DVec4>,
+    pub(crate) lines: Vec<Vec<DVec4>>,
+}
+
+/// All that is drawn.
+pub(crate) struct Whole<'a> {
+    pub(crate) surfaces: &'a [SurfaceShape],
+    pub(crate) nets: Vec<Net>,
+    pub(crate) net_in_front: bool,
+    pub(crate) constructions: Vec<Construction>,
+    /// Whether the surfaces bound bodies and their normals point out of them.
+    pub(crate) closed: bool,
+    pub(crate) title: String,
+}
+
+impl Whole<'_> {
+    /// Draws it as the style says.
+    pub(crate) fn picture(&self, style: &SurfaceStyle) -> Result<String, PlotError> {
+        let shapes = self.surfaces;
+        let count = style.triangles / shapes.len().max(1);
+        let parts = shapes.iter().map(|shape| Sampled::new(shape, count)).collect::<Result<Vec<_>, _>>()?;
+        let mut shown: Vec<DVec3> = parts.iter().flat_map(|part| part.points.iter().copied()).collect();
+        let size = BoundingBox::from_points(shown.iter().copied()).ok_or(PlotError::Nothing)?.diagonal();
+        if style.net {
+            shown.extend(self.nets.iter().flat_map(|net| &net.points).filter_map(|&p| in_space(p)));
+        }
+        shown.extend(self.constructions.iter().flat_map(Construction::points));
+        let margins = Margins { side: 30.0, top: 66.0, bottom: 92.0 };
+        let frame = Frame::new(extent(shown.iter().map(|&p| style.view.project(p)))?, style.width, &margins)?;
+
+        // Of a closed body the far side is never seen: what lies on it is left out.
+        let hidden = (style.shading != Shading::None && self.closed).then_some(style.view);
+        let longest = parts.iter().map(Sampled::longest_edge).fold(0.0, f64::max);
+        let mut scene = Scene::new(style.view, longest.max(size / 200.0));
+        let scale = shade_all(&mut scene, &parts, style, hidden.is_some());
+        let isoline = scene.pen(Pen { color: "#52606d", width: 0.7, lift: 0.4 * longest });
+        let edge = scene.pen(Pen { color: INK, width: 2.2, lift: 0.8 * longest });
+        for shape in shapes {
+            for line in shape.isolines(style.levels) {
+                draw(&mut scene, shape, &line, isoline, hidden)?;
+            }
+            for line in shape.edges() {
+                draw(&mut scene, shape, &line, edge, hidden)?;
+            }
+        }
+        let lift = if self.net_in_front { 4.0 * size } else { longest };
+        for (index, net) in self.nets.iter().enumerate().filter(|_| style.net) {
+            // Beside a construction the net is but its ground.
+            let color = if self.constructions.is_empty() { NETS[index % NETS.len()] } else { FAINT };
+            let pen = scene.pen(Pen { color, width: 1.0, lift });
+            for line in &net.lines {
+                let line: Vec<DVec3> = line.iter().filter_map(|&p| in_space(p)).collect();
+                scene.line(&line, pen);
+            }
+            net.points.iter().filter_map(|&p| in_space(p)).for_each(|p| scene.dot(p, 2.6, pen));
+        }
+        for construction in &self.constructions {
+            construction.draw(&mut scene, 8.0 * size);
+        }
+
+        let title = &self.title;
+        let mut page = frame.page(title).add(scene.paint(&frame)).add(axes_and_scale(&frame, &style.view));
+        if let Some(scale) = scale {
+            let label = if style.shading == Shading::Mean { "mean curvature" } else { "Gaussian curvature" };
+            page = page.add(color_bar(&frame, [-scale, scale], label, diverging));
+        }
+        page = page.add(text(title, DVec2::new(20.0, 27.0), "start").set("font-size", 15));
+        Ok(finish(&page))
+    }
+}
+
+/// Draws the triangles; gives the curvature of the full colour, if there are colours.
+fn shade_all(scene: &mut Scene, parts: &[Sampled<'_>], style: &SurfaceStyle, closed: bool) -> Option<f64> {
     let values: Vec<Vec<f64>> = parts.iter().map(|part| part.curvatures(style.shading)).collect();
     let curved = matches!(style.shading, Shading::Gaussian | Shading::Mean);
     let scale = curved.then(|| color_scale(values.iter().flatten().copied()));
@@ -108,43 +179,10 @@ pub fn surface_picture(shapes: &[SurfaceShape], style: &SurfaceStyle) -> Result<
             let values: Vec<f64> = values.iter().map(|x| x / scale.unwrap_or(1.0)).collect();
             let Sampled { points, normals, triangles, .. } = part;
             let skin = Skin { points, normals, triangles, values: &values };
-            shade(&mut scene, &skin, &style.view, hidden.is_some());
+            shade(scene, &skin, &style.view, closed);
         }
     }
-    let isoline = scene.pen(Pen { color: "#52606d", width: 0.7, lift: 0.4 * longest });
-    let edge = scene.pen(Pen { color: INK, width: 2.2, lift: 0.8 * longest });
-    for shape in shapes {
-        for line in shape.isolines(style.levels) {
-            draw(&mut scene, shape, &line, isoline, hidden)?;
-        }
-        for line in shape.edges() {
-            draw(&mut scene, shape, &line, edge, hidden)?;
-        }
-    }
-    // The net of a single surface lies before it; among several, nets are hidden like everything else.
-    let lift = if shapes.len() == 1 { 4.0 * size } else { longest };
-    for (index, shape) in shapes.iter().enumerate().filter(|_| style.net) {
-        // Beside a construction the net is but its ground.
-        let color = if constructions.is_empty() { NETS[index % NETS.len()] } else { FAINT };
-        let pen = scene.pen(Pen { color, width: 1.0, lift });
-        for line in shape.net_lines() {
-            let line: Vec<DVec3> = line.into_iter().filter_map(in_space).collect();
-            scene.line(&line, pen);
-        }
-        shape.net().into_iter().filter_map(in_space).for_each(|p| scene.dot(p, 2.6, pen));
-    }
-    for construction in &constructions {
-        construction.draw(&mut scene, 8.0 * size);
-    }
-
-    let title = title(shapes, style);
-    let mut page = frame.page(&title).add(scene.paint(&frame)).add(axes_and_scale(&frame, &style.view));
-    if let Some(scale) = scale {
-        let label = if style.shading == Shading::Mean { "mean curvature" } else { "Gaussian curvature" };
-        page = page.add(color_bar(&frame, [-scale, scale], label, diverging));
-    }
-    page = page.add(text(&title, DVec2::new(20.0, 27.0), "start").set("font-size", 15));
-    Ok(finish(&page))
+    scale
 }
 
 fn title(shapes: &[SurfaceShape], style: &SurfaceStyle) -> String {
@@ -333,7 +371,7 @@ fn straight(from: [f64; 2], to: [f64; 2]) -> Vec<[f64; 2]> {
 }
 
 /// The lines of a triangular net that lie along its three directions.
-fn triangle_lines<P: Copy>(net: &[P], n: usize) -> Vec<Vec<P>> {
+pub(crate) fn triangle_lines<P: Copy>(net: &[P], n: usize) -> Vec<Vec<P>> {
     let point = |i: usize, j: usize| net.get(simplex_index([i, j, n - i - j])).copied();
     let mut lines = Vec::with_capacity(3 * n);
     for c in 0..n {
@@ -373,103 +411,4 @@ fn draw(
         }
     }
     Ok(())
-}
-
-/// De Casteljau's construction, ready to be drawn.
-enum Construction {
-    /// The row curves' schemes, each level a polyline, and the scheme across with its polygon.
-    Patch { rows: Vec<Vec<Vec<DVec3>>>, across: Vec<Vec<DVec3>> },
-    /// The lines of each level's net after the first, and the point.
-    Triangle { levels: Vec<Vec<Vec<DVec3>>>, point: Option<DVec3> },
-}
-
-impl Construction {
-    fn new(shape: &SurfaceShape, [u, v]: [f64; 2]) -> Result<Self, PlotError> {
-        if !(u.is_finite() && v.is_finite()) {
-            return Err(PlotError::NotFinite);
-        }
-        match shape {
-            SurfaceShape::Patch(patch) => Self::of_patch(patch, [u, v]),
-            SurfaceShape::Triangle(triangle) => Self::of_triangle(triangle, [u, v]),
-        }
-    }
-
-    fn of_patch(patch: &RationalPatch, [u, v]: [f64; 2]) -> Result<Self, PlotError> {
-        let [m, n] = patch.degrees();
-        let [in_u, in_v] = patch.intervals();
-        let mut scheme = vec![DVec4::ZERO; tensor_scheme_count([m, n])];
-        TensorNet::new(patch.control_points(), [m, n])
-            .and_then(|net| net.scheme(in_u.local(u), in_v.local(v), &mut scheme))
-            .map_err(ShapeError::from)?;
-        let (rows, across) = scheme.split_at((m + 1) * scheme_count(n));
-        let rows = rows.chunks(scheme_count(n)).map(|row| levels(row, n)).collect();
-        Ok(Self::Patch { rows, across: levels(across, m) })
-    }
-
-    fn of_triangle(triangle: &RationalTriangle, [u, v]: [f64; 2]) -> Result<Self, PlotError> {
-        let n = triangle.degree();
-        let count = (n + 1) * (n + 2) * (n + 3) / 6;
-        let mut scheme = vec![DVec4::ZERO; count];
-        TriangleNet::new(triangle.control_points(), n)
-            .and_then(|net| net.scheme([u, v, last_barycentric(&[u, v])], &mut scheme))
-            .map_err(ShapeError::from)?;
-        let point = scheme.last().and_then(|&p| in_space(p));
-        let mut rest = &scheme[(n + 1) * (n + 2) / 2..];
-        let mut levels = Vec::with_capacity(n);
-        for lower in (1..n).rev() {
-            let (net, left) = rest.split_at((lower + 1) * (lower + 2) / 2);
-            let lines = triangle_lines(net, lower);
-            levels.push(lines.into_iter().map(|l| l.into_iter().filter_map(in_space).collect()).collect());
-            rest = left;
-        }
-        Ok(Self::Triangle { levels, point })
-    }
-
-    fn points(&self) -> Vec<DVec3> {
-        match self {
-            Self::Patch { rows, across } => rows.iter().flatten().chain(across).flatten().copied().collect(),
-            Self::Triangle { levels, point } => {
-                levels.iter().flatten().flatten().copied().chain(*point).collect()
-            }
-        }
-    }
-
-    fn draw(&self, scene: &mut Scene, lift: f64) {
-        let point_pen = scene.pen(Pen { color: ACCENT, width: 1.0, lift: 1.5 * lift });
-        match self {
-            Self::Patch { rows, across } => {
-                let polygon = scene.pen(Pen { color: FAINT, width: 0.9, lift });
-                let first = scene.pen(Pen { color: NETS[0], width: 1.1, lift: 1.1 * lift });
-                let second = scene.pen(Pen { color: NETS[3], width: 2.0, lift: 1.2 * lift });
-                for row in rows {
-                    for (level, points) in row.iter().enumerate() {
-                        let pen = if level == 0 { polygon } else { first };
-                        scene.line(points, pen);
-                        points.iter().for_each(|&p| scene.dot(p, 2.2, pen));
-                    }
-                }
-                for points in across {
-                    scene.line(points, second);
-                    points.iter().for_each(|&p| scene.dot(p, 3.2, second));
-                }
-                if let Some(&point) = across.last().and_then(|level| level.first()) {
-                    scene.dot(point, 5.0, point_pen);
-                }
-            }
-            Self::Triangle { levels, point } => {
-                for (level, lines) in levels.iter().enumerate() {
-                    let color = NETS[(level + 1) % NETS.len()];
-                    let lift = (1.0 + 0.1 * level as f64 / levels.len() as f64) * lift;
-                    let pen = scene.pen(Pen { color, width: 1.5, lift });
-                    for line in lines {
-                        scene.line(line, pen);
-                        line.iter().for_each(|&p| scene.dot(p, 2.6, pen));
-                    }
-                }
-                if let Some(point) = *point {
-                    scene.dot(point, 5.0, point_pen);
-                }
-            }
-        }
-    }
 }

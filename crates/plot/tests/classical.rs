@@ -4,8 +4,8 @@
 use casteljau_geom::Interval;
 use casteljau_geom::glam::{DVec3, dvec3};
 use casteljau_plot::{
-    CurveShape, CurveStyle, PlotError, Shading, SurfaceShape, SurfaceStyle, View, curve_picture,
-    surface_picture,
+    CurveShape, CurveStyle, PlotError, Shading, SolidShape, SurfaceShape, SurfaceStyle, View, curve_picture,
+    solid_picture, surface_picture,
 };
 use casteljau_shape::{
     Curve, Patch, PowerCurve, PowerPatch, RationalCurve, RationalPatch, RationalTriangle, Triangle,
@@ -111,6 +111,36 @@ fn curves_with_all_that_can_be_drawn() {
             check(&svg);
             assert_eq!(svg, curve_picture(&curves, &style).unwrap());
             save(&format!("curve-{name}-{what}"), &svg);
+        }
+    }
+}
+
+#[test]
+fn solids_by_their_faces() {
+    use casteljau_solid::{Hexahedron, RationalHexahedron, Tetrahedron, Wedge};
+    let meridian = [DVec3::NEG_Z, dvec3(2., 0., -1.), dvec3(2., 0., 1.), DVec3::Z];
+    let meridian = RationalCurve::new(&meridian, &[3., 1., 1., 3.]).unwrap();
+    let ball = RationalHexahedron::rotational(&meridian).unwrap();
+    let corners = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::ZERO];
+    let prism = [DVec3::X, dvec3(1., 0., 1.), DVec3::Y, dvec3(0., 1., 1.), DVec3::ZERO, DVec3::Z];
+    // Folded over itself: every face is drawn.
+    let mut folded = Hexahedron::unit_cube().control_points().to_vec();
+    folded[7] = dvec3(-1., -1., -0.5);
+    let sets: [(&str, SolidShape, usize); 5] = [
+        ("ball", SolidShape::from(&ball), 36),
+        ("cube", SolidShape::from(&Hexahedron::unit_cube()), 8),
+        ("tetrahedron", SolidShape::from(&Tetrahedron::new(1, corners).unwrap().elevated(2).unwrap()), 20),
+        ("wedge", SolidShape::from(&Wedge::new([1, 1], prism).unwrap().elevated([1, 0]).unwrap()), 12),
+        ("folded", SolidShape::from(&Hexahedron::new([1; 3], folded).unwrap()), 8),
+    ];
+    for (name, solid, dots) in sets {
+        for shading in [Shading::Light, Shading::Mean, Shading::None] {
+            let style = SurfaceStyle { shading, levels: 3, ..SurfaceStyle::default() };
+            let svg = solid_picture(std::slice::from_ref(&solid), &style).unwrap();
+            check(&svg);
+            assert_eq!(svg.matches("<circle").count(), dots, "{name}");
+            assert_eq!(svg, solid_picture(std::slice::from_ref(&solid), &style).unwrap());
+            save(&format!("solid-{name}-{shading:?}"), &svg);
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod joins;
 mod plain;
+mod solid;
 
 use casteljau::gb::{ConcavePatch, ContactLimit, ContinuityReport, Maximum, SideReport};
 use casteljau::geom::UNIT_ROUNDOFF;
@@ -98,6 +99,10 @@ pub fn run(options: &Check, json: bool) -> Result<(), Failure> {
     let mut broken = 0_usize;
     let (mut patches, mut plain) = (Vec::new(), Vec::new());
     for (named, geometry) in input.shapes.iter().zip(&shapes) {
+        if geometry.as_solid().is_some() {
+            broken += usize::from(!solid::verdict(named, geometry, json, &mut lines)?);
+            continue;
+        }
         let Some(patch) = geometry.as_gb_patch() else {
             plain.push((named.0, geometry));
             continue;

@@ -1,7 +1,8 @@
-//! `casteljau eval`: points, partial derivatives, normals, curvatures.
+//! `casteljau eval`: points, partial derivatives, normals, curvatures, Jacobians.
 
 mod curve;
 mod gb_patch;
+mod solid;
 mod surface;
 
 use std::fmt;
@@ -34,6 +35,7 @@ struct NoAnswer<'p> {
 enum Answer {
     Curve(curve::Answer),
     Surface(surface::Answer),
+    Solid(solid::Answer),
     GbPatch(gb_patch::Answer),
 }
 
@@ -69,6 +71,7 @@ pub fn run(options: &Eval, json: bool) -> Result<(), Failure> {
                 Ok(answer) if json => lines.json(&answer)?,
                 Ok(Answer::Curve(answer)) => curve::text(&answer, &mut lines)?,
                 Ok(Answer::Surface(answer)) => surface::text(&answer, &mut lines)?,
+                Ok(Answer::Solid(answer)) => solid::text(&answer, &mut lines)?,
                 Ok(Answer::GbPatch(answer)) => gb_patch::text(&answer, &mut lines)?,
                 Err(error) => no_answer(shape, params, &error, json, &mut lines)?,
             }
@@ -82,6 +85,12 @@ fn wanted(named: &NamedShape) -> Wanted {
     match named.shape {
         Shape::Curve(_) | Shape::PowerCurve(_) => Wanted::CURVE,
         Shape::Triangle(_) => Wanted::TRIANGLE,
+        Shape::Tetrahedron(_) => Wanted::TETRAHEDRON,
+        Shape::Wedge(_) => Wanted::WEDGE,
+        Shape::Hexahedron(_)
+        | Shape::TransitionalSolid(_)
+        | Shape::RotationalSolid(_)
+        | Shape::TwistedSolid(_) => Wanted::BOX,
         _ => Wanted::SURFACE,
     }
 }
@@ -95,6 +104,11 @@ fn answer(
 ) -> Result<Answer, String> {
     let rational = geometry.is_rational();
     let order = order.map(usize::from);
+    if let (&[u, v, w], Some(solid)) = (params, geometry.as_solid()) {
+        return solid::answer(solid, shape, [u, v, w], rational, order)
+            .map(Answer::Solid)
+            .map_err(|e| e.to_string());
+    }
     match (params, geometry.as_curve(), geometry.as_surface(), geometry.as_gb_patch()) {
         (&[t], Some(curve), ..) => {
             curve::answer(curve, shape, t, rational, order).map(Answer::Curve).map_err(|e| e.to_string())

@@ -15,7 +15,7 @@ use crate::output::Lines;
 /// Relative accuracy of lengths and areas.
 const ACCURACY: f64 = 1e-9;
 /// How far a face of the box may be from touching the shape, in units of the shape's size.
-const SNUG: f64 = 1e-6;
+pub(super) const SNUG: f64 = 1e-6;
 
 /// The degree of a curve or a triangle, the degrees of a patch.
 #[derive(Serialize)]
@@ -86,7 +86,7 @@ pub fn describe(shape: usize, named: &NamedShape, geometry: &Geometry) -> Result
 
 /// How far a face of the box of a rational shape may be away, in units of the box of control points or, where weights of
 /// both signs make that useless, of the largest coordinate.
-fn snug(control: Option<BoundingBox>, points: &[DVec4]) -> f64 {
+pub(super) fn snug(control: Option<BoundingBox>, points: &[DVec4]) -> f64 {
     let far = |p: &DVec4| p.xyz().abs().max_element() / if p.w == 0.0 { 1.0 } else { p.w.abs() };
     let size = control.map_or_else(|| points.iter().map(far).fold(0.0, f64::max), |b| b.diagonal());
     (SNUG * size).max(f64::MIN_POSITIVE)

@@ -2,6 +2,7 @@
 
 mod classical;
 mod gb_patch;
+mod solid;
 
 use casteljau::geom::BoundingBox;
 use casteljau::io::Geometry;
@@ -38,6 +39,11 @@ pub fn run(options: &Selection, json: bool) -> Result<(), Failure> {
             match json {
                 true => lines.json(&description)?,
                 false => gb_patch::text(&description, &title, &mut lines)?,
+            }
+        } else if let Some(description) = solid::describe(shape, named, &geometry) {
+            match json {
+                true => lines.json(&description)?,
+                false => solid::text(&description, &title, &mut lines)?,
             }
         } else {
             let description = classical::describe(shape, named, &geometry)?;
