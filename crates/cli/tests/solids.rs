@@ -161,3 +161,71 @@ fn plots_show_faces_and_nets() {
     casteljau(&["plot", &model("ball.json"), "-o", &out, "--construction", "0.5,0.5"])
         .bad(2, &["--construction"]);
 }
+
+/// Every sample is valid; volumes are those of the closed forms where there is one.
+#[test]
+fn check_certifies_and_measures() {
+    use std::f64::consts::PI;
+    let volumes = [4.0 / 3.0 * PI, 2.0 / 3.0 * PI, f64::NAN, f64::NAN, PI * 3_f64.sqrt(), f64::NAN, PI / 6.0];
+    for (name, exact) in SOLIDS.into_iter().zip(volumes) {
+        let lines = casteljau(&["check", &model(name), "--json"]).good().json();
+        let [line] = &lines[..] else { panic!("{name}: {lines:?}") };
+        let verdict = line["verdict"].as_str().unwrap();
+        assert!(["positive", "positive-except"].contains(&verdict) && line["ok"] == true, "{name}: {line}");
+        assert_eq!(verdict == "positive", line.get("except").is_none(), "{name}");
+        let volume = line["volume"].as_f64().unwrap();
+        assert!(exact.is_nan() || (volume - exact).abs() <= 1e-11 * exact, "{name}: {volume} {exact}");
+        let info = casteljau(&["info", &model(name), "--json"]).good().json();
+        assert_eq!(info[0]["volume"], line["volume"]);
+    }
+    let ball = casteljau(&["check", &model("ball.json"), "--json"]).good().json();
+    let except: Vec<&str> =
+        ball[0]["except"].as_array().unwrap().iter().map(|e| e.as_str().unwrap()).collect();
+    assert_eq!(
+        except,
+        [
+            "edge u = 0, v = 0",
+            "edge u = 0, v = 1",
+            "edge u = 1, v = 0",
+            "edge u = 1, v = 1",
+            "face w = 0",
+            "face w = 1"
+        ]
+    );
+    let text = casteljau(&["check", &model("ball.json")]).good();
+    assert!(
+        text.out.contains("positive but on edge u = 0, v = 0") && text.out.contains("volume 4.18879"),
+        "{}",
+        text.out
+    );
+}
+
+/// A solid turned inside out, and a folded one, are told with a witness in their own parameters; the exit status is 1.
+#[test]
+fn check_refuses_turned_and_folded_solids() {
+    let mut turned = sheared();
+    turned["intervals"] = json!([[0, 2], [0, 4], [-1, 1]]);
+    let slabs = turned["control_points"].as_array().unwrap().clone();
+    turned["control_points"] = json!([slabs[1], slabs[0]]);
+    let run = with_input(&["check", "-", "--json"], &single(&turned));
+    assert_eq!(run.status, 1);
+    let line = &run.json()[0];
+    assert_eq!((&line["verdict"], &line["ok"]), (&json!("invalid"), &json!(false)));
+    near(&[line["jacobian"].as_f64().unwrap()], &[-0.25], 1e-15);
+    near(&[line["volume"].as_f64().unwrap()], &[-4.0], 1e-14);
+    let witness = numbers(&line["witness"]);
+    assert!(
+        (0.0..=2.0).contains(&witness[0]) && (0.0..=4.0).contains(&witness[1]) && witness[2].abs() <= 1.0
+    );
+
+    let mut folded = sheared();
+    folded["control_points"][1][1][1] = json!([-5.0, -5.0, -5.0]);
+    let run = with_input(&["check", "-", "--json"], &single(&folded));
+    assert_eq!(run.status, 1);
+    let witness = &run.json()[0]["witness"];
+    let at = numbers(witness).iter().map(f64::to_string).collect::<Vec<_>>().join(",");
+    let there = with_input(&["eval", "-", "--json", "--at", &at], &single(&folded)).good().json();
+    assert!(there[0]["jacobian"].as_f64().unwrap() < 0.0, "{there:?}");
+    let text = with_input(&["check", "-"], &single(&folded));
+    assert!(text.out.contains("INVALID"), "{}", text.out);
+}

@@ -4,6 +4,8 @@ mod joins;
 mod plain;
 mod solid;
 
+pub use self::solid::integrate;
+
 use casteljau::gb::{ConcavePatch, ContactLimit, ContinuityReport, Maximum, SideReport};
 use casteljau::geom::UNIT_ROUNDOFF;
 use casteljau::glam::DVec3;
@@ -121,11 +123,12 @@ pub fn run(options: &Check, json: bool) -> Result<(), Failure> {
         }
     }
     let joins = joins::measure(&patches, &plain, options)?;
+    let flat = patches.len() + plain.len();
     let plain = plain::measure(&plain, options)?;
     if !json && joins.len() + plain.len() > 0 {
         lines.text("shared sides")?;
         lines.text(&head(&format!("{:<36}", "  shape, side meets shape, side")))?;
-    } else if !json && patches.is_empty() {
+    } else if !json && patches.is_empty() && flat > 0 {
         lines.text("no two ends or edges meet")?;
     }
     for line in &joins {

@@ -9,12 +9,14 @@ use serde::Serialize;
 
 use super::Bounds;
 use super::classical::{SNUG, snug};
+use crate::check::integrate;
 use crate::failure::Failure;
 use crate::number::{human, tuple};
 use crate::output::Lines;
 
 /// A solid. `bounds` contains it; the faces of a hexahedron's box are at most a millionth of its size away, those of others
-/// bound the control points; null where it may reach infinity. `construction` says what a solid is made of.
+/// bound the control points; null where it may reach infinity. `construction` says what a solid is made of. `volume` is the integral of the Jacobian,
+/// negative for a solid turned inside out; it and the centroid are null where they could not be found.
 #[derive(Serialize)]
 pub struct Description {
     shape: usize,
@@ -30,6 +32,8 @@ pub struct Description {
     #[serde(skip_serializing_if = "Option::is_none")]
     construction: Option<Made>,
     bounds: Option<Bounds>,
+    volume: Option<f64>,
+    centroid: Option<[f64; 3]>,
 }
 
 /// The degree of a tetrahedron, the degrees of a wedge or a hexahedron.
@@ -72,6 +76,7 @@ pub fn describe(shape: usize, named: &NamedShape, geometry: &Geometry) -> Option
         _ => return None,
     };
     let ends = |i: Interval| [i.start(), i.end()];
+    let properties = integrate(geometry).and_then(Result::ok);
     Some(Description {
         shape,
         kind: named.shape.kind(),
@@ -92,6 +97,8 @@ pub fn describe(shape: usize, named: &NamedShape, geometry: &Geometry) -> Option
             _ => None,
         },
         bounds: bounds(geometry).map(Bounds::from),
+        volume: properties.map(|p| p.volume),
+        centroid: properties.and_then(|p| p.centroid).map(|c| c.to_array()),
     })
 }
 
@@ -153,7 +160,14 @@ pub fn text(description: &Description, title: &str, lines: &mut Lines) -> Result
     lines.text(&match &description.bounds {
         Some(bounds) => format!("  bounds       {} to {}", tuple(&bounds.min), tuple(&bounds.max)),
         None => "  bounds       none, the shape may reach infinity".into(),
-    })
+    })?;
+    if let Some(volume) = description.volume {
+        lines.text(&format!("  volume       {}", human(volume)))?;
+    }
+    if let Some(centroid) = description.centroid {
+        lines.text(&format!("  centroid     {}", tuple(&centroid)))?;
+    }
+    Ok(())
 }
 
 fn words(made: &Made) -> String {
