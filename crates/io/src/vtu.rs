@@ -13,7 +13,7 @@
 //! `HigherOrderDegrees`. A control point has one weight, so cells share no points. Names and parameter intervals have no
 //! place in the format: its parameters run over [0, 1].
 //!
-//! [`write`] makes files of version 2.2 as text, Float64 in the shortest form that reads back to the same bits. What it
+//! [`write()`] makes files of version 2.2 as text, Float64 in the shortest form that reads back to the same bits. What it
 //! wrote, [`read`] and `write` reproduce byte by byte: points and weights of a cell stay apart, as they are in the file,
 //! until a shape is evaluated. Homogeneous control points are divided by their weights on the way out, which rounds once,
 //! so that they come back as points and weights whose products may differ from them in the last bit.

@@ -198,6 +198,32 @@ proptest! {
             }
         }
     }
+
+    /// Bytes changed, cut out and doubled: an error that names the file, or a model; nothing else.
+    #[test]
+    fn damaged_files(
+        shape in solid(),
+        wounds in prop::collection::vec((any::<prop::sample::Index>(), 0..4_u8, any::<u8>()), 1..4),
+    ) {
+        let Ok(text) = file(&Model { shapes: vec![NamedShape::new(None, shape)] }) else { return Ok(()) };
+        let mut bytes = text.into_bytes();
+        for (place, how, byte) in wounds {
+            let at = place.index(bytes.len());
+            match how {
+                0 => bytes[at] = byte,
+                1 => bytes.truncate(at + 1),
+                2 => drop(bytes.remove(at)),
+                _ => bytes.insert(at, bytes[at]),
+            }
+            if bytes.is_empty() {
+                bytes.push(byte);
+            }
+        }
+        if let Err(error) = vtu::read(&bytes, "damaged") {
+            let message = error.to_string();
+            prop_assert!(message.starts_with("damaged:") && message.len() < 600, "{}", message);
+        }
+    }
 }
 
 /// The net of a shape that a file holds to the bit: points, with weights or without, and no degree of 0.

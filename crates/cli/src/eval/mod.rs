@@ -155,8 +155,10 @@ impl Partials {
     }
 
     fn text(&self, lines: &mut Lines) -> Result<(), Failure> {
+        // Of solids they are longer than the words above them.
+        let width = self.0.iter().map(|(orders, _)| orders.len()).max().map_or(0, |n| n.max(4));
         self.0.iter().try_for_each(|(orders, value)| {
-            lines.text(&format!("    {:<12} {}", format!("partial {orders}"), vector(value)))
+            lines.text(&format!("    partial {orders:<width$} {}", vector(value)))
         })
     }
 }

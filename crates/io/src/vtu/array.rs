@@ -114,6 +114,10 @@ impl Arrays<'_> {
                 data.len()
             )));
         }
+        // Of small types, too, no more numbers than the limit holds of large ones: all become large here.
+        if (data.len() / size) as u64 > MAX_FILE_BYTES / 8 {
+            return Err((at, VtuError::TooLong { array: name(node), limit: MAX_FILE_BYTES }));
+        }
         let numbers = data.chunks_exact(size).map(|chunk| {
             let mut bytes = [0; 8];
             bytes[..size].copy_from_slice(chunk);

@@ -250,7 +250,7 @@ pub(super) fn degrees_of(kind: CellKind, count: usize) -> Option<[usize; 3]> {
         CellKind::Curve => count.checked_sub(1)?,
         _ => (1..=count).find(|&degree| counts(degree))?,
     };
-    (degree >= 1 && kind.count([degree; 3]) == Some(count)).then(|| [degree; 3])
+    (degree >= 1 && kind.count([degree; 3]) == Some(count)).then_some([degree; 3])
 }
 
 #[cfg(test)]

@@ -85,11 +85,14 @@ pub fn read(bytes: &[u8], file: &str) -> Result<Model, IoError> {
         let line = line_of(text.as_bytes(), offset);
         IoError::invalid(Place::line(file, line), Reason::Vtu(error))
     })?;
-    let shapes = cells
-        .into_iter()
-        .map(|(offset, shape)| (line_of(text.as_bytes(), offset), shape))
-        .enumerate()
-        .map(|(cell, (line, shape))| NamedShape::from_vtu(shape, file, line, cell));
+    // All cells of a piece have one place; lines are counted once a piece.
+    let mut last = (usize::MAX, 0);
+    let shapes = cells.into_iter().enumerate().map(|(cell, (offset, shape))| {
+        if last.0 != offset {
+            last = (offset, line_of(text.as_bytes(), offset));
+        }
+        NamedShape::from_vtu(shape, file, last.1, cell)
+    });
     Model::checked(shapes.collect())
 }
 
