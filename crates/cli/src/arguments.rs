@@ -92,6 +92,21 @@ pub struct Mesh {
     /// Samples a side, in place of a tolerance.
     #[arg(long, value_name = "COUNT")]
     pub resolution: Option<usize>,
+    /// In place of the surface of solids, their slice by the plane Ax + By + Cz = D.
+    #[arg(
+        long,
+        value_name = "A,B,C,D",
+        value_delimiter = ',',
+        allow_hyphen_values = true,
+        conflicts_with = "resolution"
+    )]
+    pub slice: Option<Vec<f64>>,
+    /// In place of the surface of solids, cells that fill them, as .vtu: hexahedra, tetrahedra, wedges.
+    #[arg(long, conflicts_with = "slice")]
+    pub volume: bool,
+    /// With --volume: tetrahedra only.
+    #[arg(long, requires = "volume")]
+    pub tetrahedra: bool,
     /// Write the surface's normals.
     #[arg(long)]
     pub normals: bool,

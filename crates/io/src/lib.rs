@@ -34,6 +34,7 @@ mod shape_record;
 mod solid_record;
 pub mod stl;
 pub mod vtu;
+pub mod vtu_mesh;
 
 pub use construction_record::{Part, RotationalRecord, TransitionalRecord, TwistedRecord};
 pub use error::IoError;

@@ -62,6 +62,22 @@ impl FaceNet {
         }
     }
 
+    /// The nets of the sides: of a patch v = 0, u = 1, v = 1, u = 0, along u and v; of a triangle by the vertex across.
+    pub fn sides(&self) -> Vec<Vec<DVec4>> {
+        match self {
+            Self::Patch([_, n], points) => {
+                let row = |j: usize| points.iter().skip(j).step_by(n + 1).copied().collect::<Vec<_>>();
+                let (first, last) = (&points[..=*n], &points[points.len() - n - 1..]);
+                vec![row(0), last.to_vec(), row(*n), first.to_vec()]
+            }
+            Self::Triangle(n, points) => {
+                let at = |index: [usize; 3]| points[simplex_index(index)];
+                let side = |index: &dyn Fn(usize) -> [usize; 3]| (0..=*n).map(|i| at(index(i))).collect();
+                vec![side(&|i| [0, i, n - i]), side(&|i| [i, 0, n - i]), side(&|i| [i, n - i, 0])]
+            }
+        }
+    }
+
     fn turned(&self, turn: Turn) -> Self {
         match (self, turn) {
             (Self::Patch([m, n], points), Turn::Patch { flip, swap }) => {

@@ -118,7 +118,7 @@ pub fn slice<S: AsSolid>(
 ///
 /// There is one field a solid, over the same kind of domain. On faces that solids share their fields should agree; the surface
 /// is without gaps there even where they do not. It ends on the solids' faces. Triangles are within the tolerance, as measured at the
-/// middles of edges and at centroids; the search is that of [`slice`], and places at which the field has the value count as above it. A
+/// middles of edges and at centroids; the search is that of [`slice()`], and places at which the field has the value count as above it. A
 /// part of the surface that passes between the places of the lattice unseen is missed; all places at which the field is lower on the
 /// one side and higher on the other, farther apart than a step of the lattice, are seen.
 ///
@@ -136,7 +136,7 @@ pub fn slice<S: AsSolid>(
 /// ```
 ///
 /// # Errors
-/// Those of [`slice`]; [`TessError::Field`] for a number of fields that is not that of the solids, or a value that is not finite;
+/// Those of [`slice()`]; [`TessError::Field`] for a number of fields that is not that of the solids, or a value that is not finite;
 /// [`TessError::FieldKind`].
 pub fn iso_surface<S: AsSolid>(
     solids: &[S],

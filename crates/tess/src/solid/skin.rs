@@ -5,7 +5,9 @@ use std::ops::ControlFlow;
 
 use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
 use casteljau_mesh::{MeshSink, TriangleMesh};
-use casteljau_shape::{BezierPatch, BezierTriangle, Patch, RationalPatch, RationalTriangle, Triangle};
+use casteljau_shape::{
+    BezierPatch, BezierTriangle, Patch, RationalPatch, RationalTriangle, ShapeError, Triangle,
+};
 use casteljau_solid::{BezierHexahedron, BezierTetrahedron, BezierWedge, HexahedronFace, SolidError};
 
 use super::face_key::{FaceKey, FaceNet};
@@ -59,7 +61,8 @@ impl AsFace for SkinFace {
 ///
 /// Two faces are the same where their nets are, to the bit, under one of the turns of a rectangle or a triangle, as for
 /// sides ([`SideSamples`](crate::SideSamples)). Faces that are a point, or a curve to the bit, have no part in the surface: the faces
-/// beside them meet there.
+/// beside them meet there. A patch between two poles, opposite sides that are points, comes in two halves with a pole each, which mesh
+/// better, where all faces along its other sides do.
 ///
 /// ```
 /// use casteljau_solid::{Axis, Hexahedron};
@@ -122,8 +125,8 @@ impl Skin {
                 _ => skin.overlapping.extend(uses.iter().map(|&(face, _)| all[face].id)),
             }
         }
-        skin.faces =
-            all.into_iter().zip(dropped).filter(|(_, dropped)| !dropped).map(|(face, _)| face).collect();
+        let kept = all.into_iter().zip(dropped).filter(|(_, dropped)| !dropped);
+        skin.faces = halved(kept.map(|(face, _)| face).collect())?;
         Ok(skin)
     }
 
@@ -276,6 +279,67 @@ fn face_shape(solid: Solid<'_>, face: usize, inverted: bool) -> Result<FaceShape
         Solid::Wedge(solid) => FaceShape::Triangle(wedge_triangle(solid, face, inverted)?),
         Solid::RationalWedge(solid) => FaceShape::RationalTriangle(wedge_triangle(solid, face, inverted)?),
     })
+}
+
+/// The faces, those between two poles cut in the middle.
+///
+/// A side that is cut must be cut for all who have it: faces are taken back from the cut until that holds.
+fn halved(faces: Vec<SkinFace>) -> Result<Vec<SkinFace>, TessError> {
+    let keys = |face: &SkinFace| face.shape.net().sides().iter().map(|s| SideKey::new(s)).collect();
+    let sides: Vec<Vec<SideKey>> = faces.iter().map(keys).collect();
+    // The direction from pole to pole: the sides 0 and 2, or 1 and 3, are the poles.
+    let mut cut: Vec<Option<usize>> = sides
+        .iter()
+        .map(|sides| match sides[..].iter().map(|key| key.collapsed).collect::<Vec<_>>()[..] {
+            [true, false, true, false] => Some(1),
+            [false, true, false, true] => Some(0),
+            _ => None,
+        })
+        .collect();
+    let mut users: HashMap<Vec<u64>, Vec<(usize, usize)>> = HashMap::new();
+    for (face, sides) in sides.iter().enumerate() {
+        for (side, key) in sides.iter().enumerate().filter(|(_, key)| !key.collapsed) {
+            users.entry(key.bits()).or_default().push((face, side));
+        }
+    }
+    loop {
+        // The sides that a cut goes across are 1 and 3 along v, 0 and 2 along u.
+        let whole = |&(face, side): &(usize, usize)| cut[face].is_none_or(|direction| side % 2 != direction);
+        let kept = |face: usize| {
+            let along = sides[face].iter().filter(|key| !key.collapsed);
+            along.flat_map(|key| users[&key.bits()].iter()).any(whole)
+        };
+        let taken_back: Vec<usize> =
+            (0..faces.len()).filter(|&face| cut[face].is_some() && kept(face)).collect();
+        if taken_back.is_empty() {
+            break;
+        }
+        taken_back.into_iter().for_each(|face| cut[face] = None);
+    }
+    let mut out = Vec::with_capacity(faces.len());
+    for (face, cut) in faces.into_iter().zip(cut) {
+        let SkinFace { id, shape } = face;
+        let wrong = |source: ShapeError| TessError::Solid { solid: id.solid, source: source.into() };
+        match (shape, cut) {
+            (FaceShape::Patch(patch), Some(direction)) => {
+                let halves = split(&patch, direction).map_err(wrong)?;
+                out.extend(halves.map(|half| SkinFace { id, shape: FaceShape::Patch(half) }));
+            }
+            (FaceShape::RationalPatch(patch), Some(direction)) => {
+                let halves = split(&patch, direction).map_err(wrong)?;
+                out.extend(halves.map(|half| SkinFace { id, shape: FaceShape::RationalPatch(half) }));
+            }
+            (shape, _) => out.push(SkinFace { id, shape }),
+        }
+    }
+    Ok(out)
+}
+
+/// The halves of a patch along u (0) or v (1).
+fn split<P: Lift>(patch: &BezierPatch<P>, direction: usize) -> Result<[BezierPatch<P>; 2], ShapeError> {
+    let [u, v] = patch.intervals();
+    let (a, b) = if direction == 0 { patch.split_u(u.at(0.5))? } else { patch.split_v(v.at(0.5))? };
+    Ok([a, b])
 }
 
 /// Whether a face is one point, but for rounding, or one curve, run through in one direction, to the bit.

@@ -87,7 +87,7 @@ pub struct VolumeReport {
 /// a bound, not a measurement. Edges that lie across from each other in a solid must be divided alike, and so must edges
 /// that solids share, so counts spread through a model; the largest one asked for is taken.
 ///
-/// Cost: 0.1 to 0.3 µs a cell; see `benches/benches/solids.rs`.
+/// Cost: some 1.5 µs a cell, besides 5 to 30 ms a solid for the bounds of a rational one; see `benches/benches/solids.rs`.
 ///
 /// ```
 /// use casteljau_solid::{Axis, Hexahedron};
