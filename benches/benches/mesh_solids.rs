@@ -35,7 +35,7 @@ fn solids(c: &mut Criterion) {
     let ball = ball();
     let corners = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::ZERO];
     let tetrahedron = Tetrahedron::new(1, corners).unwrap().elevated(2).unwrap();
-    let mut group = c.benchmark_group("solids");
+    let mut group = c.benchmark_group("mesh solids");
     group.sample_size(10);
     for tolerance in [1e-2, 1e-3] {
         let options = TessellationOptions::tolerance(tolerance);
