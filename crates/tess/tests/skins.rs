@@ -124,7 +124,7 @@ fn of_shared_faces_both_may_stay_and_overlaps_are_told() {
 #[test]
 fn turned_inside_out_the_outside_stays_outside() {
     let cube = Hexahedron::unit_cube().reversed(Axis::V);
-    let skin = Skin::new(&[cube.clone()], SharedFaces::Dropped).unwrap();
+    let skin = Skin::new(std::slice::from_ref(&cube), SharedFaces::Dropped).unwrap();
     assert_eq!(skin.inverted(), [0]);
     let options = TessellationOptions::resolution(3);
     let (mesh, ..) = tessellate_solids(&[cube], SharedFaces::Dropped, &options, &mut no_progress).unwrap();

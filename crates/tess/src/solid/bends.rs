@@ -45,7 +45,7 @@ impl Bends {
             Points::Polynomial(_) => None,
         };
         let rule = match rule {
-            Some(quotients) => Rule::Exact(quotients),
+            Some(quotients) => Rule::Exact(Box::new(quotients)),
             None => Rule::Apart(Box::new(Derivatives::new(degrees, &points))),
         };
         let depth = DEPTH - usize::from(points.len() > LARGE);
@@ -115,7 +115,7 @@ impl Bends {
 /// How the second derivatives are bounded.
 enum Rule {
     /// As quotients.
-    Exact(Quotients),
+    Exact(Box<Quotients>),
     /// Term by term of the quotient rule.
     Apart(Box<Derivatives>),
 }
@@ -144,7 +144,8 @@ impl Rule {
     fn over(&self, part: &Part, net: &[DVec4]) -> Result<[[f64; 3]; 3], BernsteinError> {
         let mut bends = [[0.0; 3]; 3];
         match self {
-            Self::Exact(Quotients { degrees, numerators, denominator }) => {
+            Self::Exact(quotients) => {
+                let Quotients { degrees, numerators, denominator } = quotients.as_ref();
                 let cube = degrees.restrict(denominator, part)?;
                 for (a, row) in numerators.iter().enumerate() {
                     for (b, net) in row.iter().enumerate() {

@@ -326,10 +326,8 @@ impl Degrees {
         let [from, to] = self.edges()[edge].map(|corner| self.corner(corner, degrees));
         let count = degrees[self.group(edge)];
         let at = |i: usize| {
-            // From one corner to the other in equal steps of the lattice.
-            std::array::from_fn(|a| {
-                if count == 0 { from[a] } else { (from[a] * (count - i) + to[a] * i) / count }
-            })
+            // From one corner to the other in equal steps of the lattice; of degree 0 there is one point.
+            std::array::from_fn(|a| (from[a] * (count - i) + to[a] * i).checked_div(count).unwrap_or(from[a]))
         };
         (0..=count).map(|i| points[self.index(at(i))]).collect()
     }
