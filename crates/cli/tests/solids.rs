@@ -184,17 +184,17 @@ fn check_certifies_and_measures() {
     assert_eq!(
         except,
         [
+            "face w = 0",
+            "face w = 1",
             "edge u = 0, v = 0",
             "edge u = 0, v = 1",
             "edge u = 1, v = 0",
-            "edge u = 1, v = 1",
-            "face w = 0",
-            "face w = 1"
+            "edge u = 1, v = 1"
         ]
     );
     let text = casteljau(&["check", &model("ball.json")]).good();
     assert!(
-        text.out.contains("positive but on edge u = 0, v = 0") && text.out.contains("volume 4.18879"),
+        text.out.contains("positive but on face w = 0") && text.out.contains("volume 4.18879"),
         "{}",
         text.out
     );
