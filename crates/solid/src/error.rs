@@ -222,4 +222,19 @@ pub enum SolidError {
         /// The largest number served.
         limit: usize,
     },
+
+    /// A solid of so high degrees that binomial coefficients of its determinant, or of the products that
+    /// moments are integrals of, leave the range of numbers: from about 200 on.
+    ///
+    /// ```
+    /// use casteljau_solid::{Hexahedron, SolidError};
+    /// let cube = Hexahedron::unit_cube().elevated([499, 0, 0])?;
+    /// assert_eq!(cube.mass_properties(1e-12), Err(SolidError::Multiplicities { degrees: [500, 1, 1] }));
+    /// # Ok::<(), SolidError>(())
+    /// ```
+    #[error("binomial coefficients for the degrees {degrees:?} leave the range of numbers")]
+    Multiplicities {
+        /// The degrees along the three parameters.
+        degrees: [usize; 3],
+    },
 }

@@ -150,8 +150,13 @@ pub trait ParametricSolid {
     /// The Jacobian `det ∂(x,y,z)/∂(parameters)`, negative where the solid is turned inside out.
     ///
     /// # Errors
-    /// Those of [`try_partials`](Self::try_partials).
+    /// Those of [`try_partials`](Self::try_partials), and where the determinant itself leaves the range of numbers.
     fn try_jacobian(&self, at: [f64; 3]) -> Result<f64, SolidError> {
-        Ok(self.try_jet(at)?.jacobian())
+        let jacobian = self.try_jet(at)?.jacobian();
+        if jacobian.is_finite() {
+            Ok(jacobian)
+        } else {
+            Err(ShapeError::overflow(Parameters::Solid(at), self.weight(at)).into())
+        }
     }
 }

@@ -226,6 +226,40 @@ fn weights_of_both_signs_and_nonsense() {
     assert!(matches!(locator.locate_within(p, 0.0), Err(SolidError::Construction { .. })));
 }
 
+/// Products of three derivatives would leave the range of numbers: a pyramid made of a cube, its apex the face u = 1.
+#[test]
+fn sizes_at_the_ends_of_the_range() {
+    let mut dice = Dice(4);
+    for exponent in [-130, -110, -60, 0, 60, 110, 130] {
+        let (scale, apex) = (10_f64.powi(exponent), DVec3::new(1.0, 0.5, 0.5));
+        let cube = Hexahedron::unit_cube();
+        let points = cube.control_points().iter().map(|p| if p.x == 1.0 { apex } else { *p } * scale);
+        let solid = Hexahedron::new([1; 3], points.collect::<Vec<_>>()).unwrap();
+        let mut locator = SolidLocator::of_hexahedron(&solid).unwrap();
+        for _ in 0..200 {
+            let mut at = dice.point();
+            at[0] = 1.0 - 10_f64.powf(-16.0 * at[0]);
+            assert_found(&mut locator, &solid, solid.point(at));
+            let beyond = apex * scale + DVec3::X * (scale * 10_f64.powf(-12.0 * at[1]));
+            assert_eq!(locator.locate(beyond).unwrap(), None, "{beyond}");
+        }
+    }
+}
+
+/// The size, and with it the tolerance, is that of the solid, however far apart the weights are.
+#[test]
+fn wild_weights_do_not_loosen_the_tolerance() {
+    let mut dice = Dice(5);
+    for _ in 0..20 {
+        let points: Vec<DVec3> = (0..8).map(|_| DVec3::from_array(dice.point())).collect();
+        let weights: Vec<f64> = (0..8).map(|_| 10_f64.powf(16.0 * dice.roll() - 8.0)).collect();
+        let solid = RationalHexahedron::new([1; 3], &points, &weights).unwrap();
+        let hull = solid.hull_box().unwrap();
+        let locator = SolidLocator::of_hexahedron(&solid).unwrap();
+        assert!(locator.size() <= (1.0 + 1e-12) * (hull.max - hull.min).length(), "{}", locator.size());
+    }
+}
+
 /// A point, a line, a sheet: every point of them is found, nothing else.
 #[test]
 fn flat_solids() {

@@ -346,3 +346,19 @@ fn tight_boxes_touch() {
         );
     }
 }
+
+/// A determinant that leaves the range of numbers is an error: never infinite, nor NaN.
+#[test]
+fn a_jacobian_out_of_range_is_an_error() {
+    for scale in [1e110, 1e130] {
+        // Terms of both signs.
+        let [u, v, w] = [[1.0, 1.0, 1.0], [1.0, 1.0, 0.5], [0.3, -0.2, 1.0]].map(DVec3::from_array);
+        let cube = Hexahedron::unit_cube();
+        let points = cube.control_points().iter().map(|p| (u * p.x + v * p.y + w * p.z) * scale);
+        let solid = Hexahedron::new([1; 3], points.collect::<Vec<_>>()).unwrap();
+        for solid in [&solid as &dyn ParametricSolid, &RationalHexahedron::from(solid.clone())] {
+            let refused = solid.try_jacobian([0.5; 3]);
+            assert!(matches!(refused, Err(SolidError::Shape(ShapeError::Evaluation { .. }))), "{refused:?}");
+        }
+    }
+}

@@ -41,7 +41,8 @@ impl JacobianCoefficients {
     /// hexahedron, 20 µs for one of degree 2.
     ///
     /// # Errors
-    /// [`SolidError::NetLength`] and [`SolidError::Shape`] for a net that is none, [`SolidError::Coefficients`].
+    /// [`SolidError::NetLength`] and [`SolidError::Shape`] for a net that is none, [`SolidError::Coefficients`] and
+    /// [`SolidError::Multiplicities`] for high degrees.
     pub fn new<P: ControlPoint>(net: &SolidNet<'_, P>) -> Result<Self, SolidError> {
         net.check()?;
         net.degrees().check_determinant(P::RATIONAL)?;

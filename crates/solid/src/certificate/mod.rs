@@ -92,7 +92,7 @@ impl JacobianVerdict {
 ///
 /// # Errors
 /// [`SolidError::NetLength`] and [`SolidError::Shape`] for a net that is none; [`SolidError::Coefficients`] for degrees about
-/// above 30, 20 for rational solids; [`SolidError::WeightZero`] where the weight of a rational solid vanishes, [`SolidError::WeightUndecided`] where that could not be found out. Weights may have any
+/// above 30, 20 for rational solids, and [`SolidError::Multiplicities`] for a single one above 200; [`SolidError::WeightZero`] where the weight of a rational solid vanishes, [`SolidError::WeightUndecided`] where that could not be found out. Weights may have any
 /// sign as long as their function has one.
 ///
 /// ```

@@ -95,13 +95,40 @@ impl SolidDegrees {
     /// times those of a rational solid.
     pub(crate) fn check_determinant(self, rational: bool) -> Result<(), SolidError> {
         let factor = if rational { 4 } else { 3 };
-        let product = match self {
-            Self::Hexahedron(degrees) => Self::Hexahedron(degrees.map(|d| factor * d)),
-            Self::Tetrahedron(n) => Self::Tetrahedron(factor * n),
-            Self::Wedge(degrees) => Self::Wedge(degrees.map(|d| factor * d)),
+        let (needed, limit) = (self.scaled(factor).count(), MOST_COEFFICIENTS);
+        if needed > limit {
+            return Err(SolidError::Coefficients { needed, limit });
+        }
+        self.check_multiplicities(factor)
+    }
+
+    /// Refuses degrees whose basis functions, multiplied `factor` of them, carry numbers out of range, or so large that
+    /// sums of products with the control points, brought near 1, are.
+    pub(crate) fn check_multiplicities(self, factor: usize) -> Result<(), SolidError> {
+        let product = self.scaled(factor);
+        // The largest multinomial coefficient is that in the middle.
+        let middle = match product {
+            Self::Hexahedron(degrees) => degrees.map(|d| d / 2),
+            Self::Tetrahedron(n) => [n / 4; 3],
+            Self::Wedge([n, o]) => [n / 3, n / 3, o / 2],
         };
-        let (needed, limit) = (product.count(), MOST_COEFFICIENTS);
-        if needed > limit { Err(SolidError::Coefficients { needed, limit }) } else { Ok(()) }
+        let degrees = self.along();
+        // Derivatives carry their degrees; determinants of differences of numbers below 2 stay below 2¹².
+        let size = degrees.iter().fold(4096.0, |size, &d| size * d.max(1) as f64);
+        if (product.multiplicity(middle) * size).is_finite() {
+            Ok(())
+        } else {
+            Err(SolidError::Multiplicities { degrees })
+        }
+    }
+
+    /// So many times the degrees.
+    const fn scaled(self, factor: usize) -> Self {
+        match self {
+            Self::Hexahedron([l, m, n]) => Self::Hexahedron([factor * l, factor * m, factor * n]),
+            Self::Tetrahedron(n) => Self::Tetrahedron(factor * n),
+            Self::Wedge([n, o]) => Self::Wedge([factor * n, factor * o]),
+        }
     }
 
     /// The greatest exponent of each of the three parameters.

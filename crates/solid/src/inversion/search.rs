@@ -6,11 +6,12 @@
 //! the cell, whose Jacobian is near the unit matrix on small cells. What is not left out is cut further, down to cells
 //! whose image is a point within the tolerance.
 
-use casteljau_geom::glam::{DMat3, DVec3, DVec4, Vec4Swizzles};
+use casteljau_geom::glam::{BVec3, DMat3, DVec3, DVec4, Vec4Swizzles};
 use casteljau_geom::{UNIT_ROUNDOFF, rounding_bound};
 
 use super::domain::Domain;
 use crate::SolidError;
+use crate::certificate::{exponent, scaled};
 
 /// Cells looked at for one point, at most, beyond the first ones.
 const MOST_CELLS: usize = 5_000;
@@ -23,6 +24,10 @@ const NEWTON_STEPS: usize = 12;
 
 /// Damped steps for places where the Jacobian vanishes: each at least halves the error there.
 const DAMPED_STEPS: usize = 80;
+
+/// Weights and lengths are brought near 1 by no more than 2 to this power, so that points within `LARGEST_COORDINATE` stay in
+/// range.
+const MOST_DOUBLINGS: i32 = 500;
 
 /// A cell of the first generation, made ready for many points.
 struct Prepared<C> {
@@ -37,12 +42,15 @@ struct Prepared<C> {
     to_local: DMat3,
 }
 
-/// What the search keeps of a solid.
+/// What the search keeps of a solid: coordinates and weights are brought near 1 by powers of two, so that no product of
+/// three derivatives leaves the range of numbers.
 pub(super) struct Search<D: Domain> {
     domain: D,
     net: Vec<DVec4>,
     /// The point that all coordinates are measured from.
     origin: DVec3,
+    /// Lengths here are 2 to minus this power times those given.
+    in_space: i32,
     /// The largest number in the net, by coordinates and by weight.
     largest: f64,
     heaviest: f64,
@@ -72,13 +80,22 @@ impl<D: Domain> Search<D> {
     /// Prepares the search in a solid with the homogeneous net `points`.
     pub fn new(domain: D, points: &[DVec4]) -> Result<Self, SolidError> {
         let origin = casteljau_shape::control_net::hull_box(points).map_or(DVec3::ZERO, |b| b.center());
-        let net: Vec<DVec4> = points.iter().map(|p| (p.xyz() - origin * p.w).extend(p.w)).collect();
-        let largest = net.iter().map(|p| p.xyz().abs().max_element()).fold(0.0, f64::max);
-        let heaviest = net.iter().map(|p| p.w.abs()).fold(0.0, f64::max);
+        let mut net: Vec<DVec4> = points.iter().map(|p| (p.xyz() - origin * p.w).extend(p.w)).collect();
         let exact = net.iter().all(|p| p.w == 1.0);
-        let shift = if exact { 0.0 } else { 2.0 * UNIT_ROUNDOFF * origin.abs().max_element() * heaviest };
+        let most = |net: &[DVec4], of: fn(&DVec4) -> f64| net.iter().map(of).fold(0.0, f64::max);
+        let coordinate = |p: &DVec4| p.xyz().abs().max_element();
+        let in_weight = exponent(most(&net, |p| p.w.abs())).clamp(-MOST_DOUBLINGS, MOST_DOUBLINGS);
+        let in_space = exponent(most(&net, coordinate)).saturating_sub(in_weight);
+        let in_space = in_space.clamp(-MOST_DOUBLINGS, MOST_DOUBLINGS);
+        for p in &mut net {
+            let q = *p * 2_f64.powi(-in_weight);
+            *p = (q.xyz() * 2_f64.powi(-in_space)).extend(q.w);
+        }
+        let (largest, heaviest) = (most(&net, coordinate), most(&net, |p| p.w.abs()));
+        let far = scaled(origin.abs().max_element(), -in_space);
+        let shift = if exact { 0.0 } else { 2.0 * UNIT_ROUNDOFF * far * heaviest };
         let mut search =
-            Self { domain, net, origin, largest, heaviest, shift, size: 0.0, prepared: Vec::new() };
+            Self { domain, net, origin, in_space, largest, heaviest, shift, size: 0.0, prepared: Vec::new() };
         let mut cells = vec![search.domain.whole()];
         let mut axis = 0;
         while cells.len() < PREPARED {
@@ -92,12 +109,15 @@ impl<D: Domain> Search<D> {
         }
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for cell in search.prepared.iter().filter(|c| c.low.is_finite() && c.high.is_finite()) {
-            (low, high) = (low.min(cell.low), high.max(cell.high));
+            // Around the control points alone: what they may be wrong by is no size of the solid.
+            for q in cell.net.iter().map(|p| p.xyz() / p.w) {
+                (low, high) = (low.min(q), high.max(q));
+            }
         }
         if !(low.is_finite() && high.is_finite()) {
             return Err(casteljau_shape::ShapeError::Unbounded.into());
         }
-        search.size = (high - low).length();
+        search.size = scaled((high - low).length(), in_space);
         Ok(search)
     }
 
@@ -146,7 +166,19 @@ impl<D: Domain> Search<D> {
     /// The nearest parameter that is found, if its point is within the tolerance; `None` is a proof that the solid does
     /// not reach p.
     pub fn locate(&self, p: DVec3, tolerance: f64, work: &mut Work) -> Result<Option<Hit>, SolidError> {
-        let p = p - self.origin;
+        let into = 2_f64.powi(-self.in_space);
+        let found = self.locate_scaled((p - self.origin) * into, tolerance * into, work);
+        match found {
+            Ok(hit) => Ok(hit.map(|hit| Hit { residual: scaled(hit.residual, self.in_space), ..hit })),
+            Err(SolidError::Undecided { cells, .. }) => {
+                Err(SolidError::Undecided { point: p, tolerance, cells })
+            }
+            Err(other) => Err(other),
+        }
+    }
+
+    /// [`locate`](Self::locate) for a point, a tolerance and a residual as the net has them.
+    fn locate_scaled(&self, p: DVec3, tolerance: f64, work: &mut Work) -> Result<Option<Hit>, SolidError> {
         let unsure = self.net_error(p.abs().max_element());
         let mut order = std::mem::take(&mut work.order);
         order.clear();
@@ -248,7 +280,7 @@ impl<D: Domain> Search<D> {
                 open.push((half, depth + 1));
             }
             if looked > MOST_CELLS {
-                break Err(SolidError::Undecided { point: p + self.origin, tolerance, cells: looked });
+                break Err(SolidError::Undecided { point: p, tolerance, cells: looked });
             }
         };
         work.net = net;
@@ -277,14 +309,15 @@ impl<D: Domain> Search<D> {
     /// Whether a component of `M (wF − w·p)` has all its coefficients on one side of 0.
     fn excluded(&self, net: &[DVec4], p: DVec3, m: DMat3, unsure: f64) -> bool {
         let margin = (m.x_axis.abs() + m.y_axis.abs() + m.z_axis.abs()) * unsure;
-        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for q in net {
-            let g = m * (q.xyz() - p * q.w);
-            (low, high) = (low.min(g), high.max(g));
-        }
         // Once for the net, and once for the product with M, which rounds less.
         let rounding = margin * 2.0;
-        low.cmpgt(rounding).any() || high.cmplt(-rounding).any()
+        let (mut above, mut below) = (BVec3::TRUE, BVec3::TRUE);
+        for q in net {
+            // What is not a number is neither.
+            let g = m * (q.xyz() - p * q.w);
+            (above, below) = (above & g.cmpgt(rounding), below & g.cmplt(-rounding));
+        }
+        above.any() || below.any()
     }
 
     fn hit(&self, at: DVec3, p: DVec3) -> Option<Hit> {

@@ -64,7 +64,8 @@ impl MassProperties {
 ///
 /// # Errors
 /// [`SolidError::NetLength`] and [`SolidError::Shape`] for a net that is none or a `relative` not between 0 and 1;
-/// [`SolidError::Coefficients`] for degrees about above 30 of a polynomial solid; for rational solids [`SolidError::WeightZero`], [`SolidError::WeightUndecided`], and [`SolidError::Moments`] where the accuracy was not
+/// [`SolidError::Coefficients`] for degrees about above 30 of a polynomial solid and [`SolidError::Multiplicities`] for a
+/// single one above about 200; for rational solids [`SolidError::WeightZero`], [`SolidError::WeightUndecided`], and [`SolidError::Moments`] where the accuracy was not
 /// reached.
 ///
 /// ```
@@ -89,6 +90,8 @@ pub fn mass_properties<P: ControlPoint>(
     let reference = DVec3::from(center(&points));
     if !P::RATIONAL {
         net.degrees().check_determinant(false)?;
+        // Second moments are integrals of products with two coordinates.
+        net.degrees().check_multiplicities(5)?;
         return Ok(polynomial::integrate(net, reference));
     }
     weight::check_one_sign(net, DEFAULT_OPERATIONS)?;
