@@ -14,8 +14,8 @@ use crate::failure::Failure;
 use crate::number::{human, tuple};
 use crate::output::Lines;
 
-/// A solid. `bounds` contains it; the faces of a hexahedron's box are at most a millionth of its size away, those of others
-/// bound the control points; null where it may reach infinity. `construction` says what a solid is made of. `volume` is the integral of the Jacobian,
+/// A solid. `bounds` contains it, each face at most a millionth of its size away;
+/// null where it may reach infinity. `construction` says what a solid is made of. `volume` is the integral of the Jacobian,
 /// negative for a solid turned inside out; it and the centroid are null where they could not be found.
 #[derive(Serialize)]
 pub struct Description {
@@ -123,17 +123,19 @@ fn made(solid: &ConstructedSolid) -> Made {
 /// The box around the solid over its domain.
 fn bounds(geometry: &Geometry) -> Option<BoundingBox> {
     let hull = geometry.control_box();
-    let near = |points: &[DVec4]| snug(hull, points);
+    let within = |points: &[DVec4]| snug(hull, points);
+    let size = || (SNUG * hull.map_or(0.0, |b| b.diagonal())).max(f64::MIN_POSITIVE);
     match geometry {
-        Geometry::Hexahedron(solid) => {
-            let size = solid.bounding_box().diagonal();
-            solid.tight_box((SNUG * size).max(f64::MIN_POSITIVE)).ok()
-        }
-        Geometry::RationalHexahedron(solid) => solid.tight_box(near(solid.control_points())).ok(),
+        Geometry::Tetrahedron(solid) => solid.tight_box(size()).ok(),
+        Geometry::RationalTetrahedron(solid) => solid.tight_box(within(solid.control_points())).ok(),
+        Geometry::Hexahedron(solid) => solid.tight_box(size()).ok(),
+        Geometry::RationalHexahedron(solid) => solid.tight_box(within(solid.control_points())).ok(),
         Geometry::Constructed(solid) => {
             let solid = solid.hexahedron();
-            solid.tight_box(near(solid.control_points())).ok()
+            solid.tight_box(within(solid.control_points())).ok()
         }
+        Geometry::Wedge(solid) => solid.tight_box(size()).ok(),
+        Geometry::RationalWedge(solid) => solid.tight_box(within(solid.control_points())).ok(),
         _ => hull,
     }
 }
