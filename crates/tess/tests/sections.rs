@@ -160,12 +160,46 @@ fn a_cone_is_cut_through_its_apex() {
     assert!((mesh.area().unwrap() - PI * 1e-6).abs() <= allowed, "{}", mesh.area().unwrap());
 }
 
-/// |p − ½|² over the unit cube.
-fn sphere_field() -> SolidField {
+/// A solid that needs a fine lattice, and a field that has the value all over it, or all but has it in half of it.
+#[test]
+fn fields_without_a_slope_end_soon() {
+    let bent = Hexahedron::unit_cube().elevated([1, 1, 1]).unwrap();
+    let points = bent.control_points().iter().map(|p| *p + 0.2 * dvec3(p.y * p.y, p.z * p.z, p.x * p.x));
+    let bent = Hexahedron::new([2; 3], points.collect::<Vec<_>>()).unwrap();
+    let options = SectionOptions { max_vertices: 1000, ..SectionOptions::tolerance(1e-7) };
+    let constant = SolidField::hexahedron([1; 3], [0.5; 8]).unwrap();
+    let (mesh, _) = iso_surface(&[&bent], &[constant], 0.5, &options, &mut no_progress).unwrap();
+    assert!(mesh.is_empty());
+    // −u⁶⁰
+    let power: Vec<f64> = (0..=60).map(|i| if i == 60 { -1.0 } else { 0.0 }).collect();
+    let power = SolidField::hexahedron([60, 0, 0], power).unwrap();
+    let refused = iso_surface(&[&bent], &[power], 0.0, &options, &mut no_progress);
+    assert!(matches!(refused, Err(TessError::TooManySolidVertices { solid: 0, .. })), "{refused:?}");
+}
+
+#[test]
+fn the_unit_of_a_field_does_not_matter() {
+    let options = SectionOptions::tolerance(1e-2);
+    for exponent in [-1000, -600, 0, 600, 1000] {
+        let unit = 2f64.powi(exponent);
+        let net: Vec<f64> = sphere_field_net().map(|c| c * unit).collect();
+        let field = SolidField::hexahedron([2; 3], net).unwrap();
+        let cube = Hexahedron::unit_cube();
+        let (mesh, _) = iso_surface(&[&cube], &[field], 0.0625 * unit, &options, &mut no_progress).unwrap();
+        let audit = mesh.audit().unwrap();
+        assert!(audit.closed && audit.euler_characteristic == 2, "2^{exponent}: {audit:?}");
+    }
+}
+
+fn sphere_field_net() -> impl Iterator<Item = f64> {
     // (x − ½)² = ¼ − x + x²: coefficients ¼, −¼, ¼.
     let c = [0.25, -0.25, 0.25];
-    let net = (0..27).map(|i| c[i / 9] + c[i / 3 % 3] + c[i % 3]).collect::<Vec<_>>();
-    SolidField::hexahedron([2; 3], net).unwrap()
+    (0..27).map(move |i| c[i / 9] + c[i / 3 % 3] + c[i % 3])
+}
+
+/// |p − ½|² over the unit cube.
+fn sphere_field() -> SolidField {
+    SolidField::hexahedron([2; 3], sphere_field_net().collect::<Vec<_>>()).unwrap()
 }
 
 #[test]

@@ -20,6 +20,23 @@ fn requests(size: f64) -> Vec<TessellationOptions> {
     all
 }
 
+/// Jacobians that leave the range of numbers keep their sign.
+#[test]
+fn which_side_is_out_is_known_at_any_size() {
+    for exponent in [-130, -110, 0, 110, 130] {
+        let scale = 10f64.powi(exponent);
+        // Columns whose determinant, −¼, is a sum of terms of both signs.
+        let [u, v, w] = [dvec3(1.0, 1.0, 1.0), dvec3(1.0, 1.0, 0.5), dvec3(0.3, -0.2, 1.0)];
+        let cube = Hexahedron::unit_cube();
+        let points = cube.control_points().iter().map(|p| (u * p.x + v * p.y + w * p.z) * scale);
+        let solid = Hexahedron::new([1; 3], points.collect::<Vec<_>>()).unwrap();
+        for (solid, inverted) in [(solid.reversed(Axis::U), &[][..]), (solid, &[0])] {
+            let skin = Skin::new(&[solid], SharedFaces::Dropped).unwrap();
+            assert_eq!((skin.inverted(), skin.faces().len()), (inverted, 6), "1e{exponent}");
+        }
+    }
+}
+
 fn closed(mesh: &TriangleMesh, euler: i64, what: &str) -> f64 {
     let audit = mesh.audit().unwrap();
     assert!(audit.closed && audit.manifold && audit.oriented, "{what}: {audit:?}");

@@ -31,6 +31,23 @@ fn assert_valid(mesh: &VolumeMesh, report: &VolumeReport, what: &str) {
     }
 }
 
+/// Cubes of weights and squares of lengths would leave the range of numbers; the mesh is the same.
+#[test]
+fn a_common_factor_of_weights_or_lengths_changes_nothing() {
+    let ball = ball();
+    let (plain, of_plain) = mesh(&[(&ball).into()], VolumeOptions::tolerance(0.125));
+    assert!(of_plain.counts[0][0] > 1);
+    for (in_space, in_weight) in [(0, -400), (0, 400), (-200, 0), (200, 0), (-200, 400)] {
+        let (length, weight) = (2f64.powi(in_space), 2f64.powi(in_weight));
+        let net = ball.control_points().iter().map(|p| (p.truncate() * length * weight).extend(p.w * weight));
+        let scaled = RationalHexahedron::from_homogeneous(ball.degrees(), net.collect::<Vec<_>>()).unwrap();
+        let (mesh, report) = mesh(&[(&scaled).into()], VolumeOptions::tolerance(0.125 * length));
+        assert_eq!(report.counts, of_plain.counts, "{in_space} {in_weight}");
+        assert_eq!(report.chord_error.map(|e| e / length), of_plain.chord_error);
+        assert_eq!(mesh.positions.len(), plain.positions.len());
+    }
+}
+
 #[test]
 fn solids_of_revolution_converge_to_their_volumes() {
     let bodies =

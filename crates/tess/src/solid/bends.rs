@@ -38,7 +38,11 @@ impl Bends {
     /// # Errors
     /// [`TessError::SolidPole`] where weights of two signs are left in a part that is not halved further.
     pub fn new(net: &SolidNet, solid: usize) -> Result<Self, TessError> {
-        let (degrees, points) = (net.degrees, net.homogeneous());
+        let (degrees, mut points) = (net.degrees, net.homogeneous());
+        // Brought near 1, so that no cube of a weight and no square of a length leaves the range of numbers.
+        let space = binade(largest(points.iter().map(|p| p.xyz().abs().max_element())));
+        let weight = binade(largest(points.iter().map(|p| p.w.abs())));
+        points.iter_mut().for_each(|p| *p = (p.xyz() / space).extend(p.w / weight));
         let kernel = |source: BernsteinError| TessError::Solid { solid, source: source.into() };
         let rule = match net.points {
             Points::Rational(_) => quotients(degrees, &points, MOST_TERMS).map_err(kernel)?,
@@ -65,7 +69,8 @@ impl Bends {
                 todo.extend(part.split().map(|part| (part, level + 1)));
                 continue;
             }
-            parts.push(rule.over(&part, &net).map_err(kernel)?);
+            let bends = rule.over(&part, &net).map_err(kernel)?;
+            parts.push(bends.map(|row| row.map(|bend| bend * space / weight)));
         }
         Ok(Self { degrees, parts })
     }
@@ -207,8 +212,15 @@ pub(crate) fn one_sign(net: &[DVec4]) -> bool {
     net.iter().all(|p| p.w > 0.0) || net.iter().all(|p| p.w < 0.0)
 }
 
+/// Infinity where one is not a number, as weights of all but no size beside others make it.
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
-    values.fold(0.0, f64::max)
+    values.fold(0.0, |most, x| if x.is_nan() { f64::INFINITY } else { most.max(x) })
+}
+
+/// The power of two at or below a number; 1 where that has none.
+pub(crate) fn binade(x: f64) -> f64 {
+    let power = f64::from_bits(x.to_bits() & (0x7ff << 52));
+    if power > 0.0 && power.is_finite() { power } else { 1.0 }
 }
 
 /// The parameters of a point in a part: the first three of its local ones, the height in place of the third in a wedge.

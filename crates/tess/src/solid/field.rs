@@ -4,6 +4,7 @@ use casteljau_geom::glam::DVec4;
 use casteljau_geom::{UNIT_ROUNDOFF, rounding_bound};
 use casteljau_shape::bernstein::{MAX_DEGREE, simplex_count};
 
+use super::bends::binade;
 use super::net::{Degrees, SolidNet};
 use crate::TessError;
 
@@ -99,8 +100,10 @@ impl Level {
     /// The field less a value.
     pub fn of_field(field: &SolidField, value: f64) -> Self {
         let scale = field.coefficients.iter().fold(value.abs(), |max, c| max.max(c.abs()));
-        let coefficients = field.coefficients.iter().map(|c| c - value).collect();
-        Self::new(field.degrees, coefficients, 2.0 * scale)
+        // Brought near 1, so that no square of a slope leaves the range of numbers.
+        let unit = binade(scale);
+        let coefficients = field.coefficients.iter().map(|c| c / unit - value / unit).collect();
+        Self::new(field.degrees, coefficients, 2.0 * (scale / unit))
     }
 
     /// The distance from a plane with the unit normal n times the weight, `n·(wX) − d·w`, of the sign of the weights.

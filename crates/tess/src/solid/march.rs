@@ -20,6 +20,10 @@ const STEPS: usize = 80;
 
 /// Values within so many times their rounding bound are zero.
 const SNAP: f64 = 16.0;
+/// At most so many places of the lattices are looked at for each vertex that is allowed; a surface has a handful of them around a vertex.
+const PLACES_PER_VERTEX: usize = 8;
+/// As many are looked at in any case.
+const FEWEST_PLACES: usize = 1 << 22;
 
 /// Even orders of a tetrahedron's corners that begin with each one, and with each pair.
 const ALONE: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 3, 2], [2, 0, 1, 3], [3, 0, 2, 1]];
@@ -125,6 +129,11 @@ impl March<'_> {
         let counts = self.complex.counts_of(solid, self.counts);
         let steps = degrees.steps(counts);
         let level = &self.levels[solid];
+        // By the convex hull property no place is below; where the level is zero all over the solid, every place would be looked at.
+        if level.coefficients.iter().all(|&c| c >= 0.0) {
+            return Ok(());
+        }
+        let most = self.limit.saturating_mul(PLACES_PER_VERTEX).max(FEWEST_PLACES);
         let mut todo = vec![[[0, steps[0]], [0, steps[1]], [0, steps[2]]]];
         let mut done = 0.0;
         let whole: f64 = steps.iter().map(|&n| f64::from(n)).product();
@@ -154,6 +163,10 @@ impl March<'_> {
                 continue;
             }
             self.block(solid, block, counts, state)?;
+            if state.nodes.len() > most {
+                let needed = state.nodes.len() as f64;
+                return Err(TessError::TooManySolidVertices { solid, needed, limit: most });
+            }
             done += volume;
             progress.tell(done / whole)?;
         }

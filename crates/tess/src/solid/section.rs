@@ -28,7 +28,8 @@ const DOUBLINGS: usize = 7;
 pub struct SectionOptions {
     /// Chord tolerance, in model units.
     pub tolerance: f64,
-    /// Most vertices of the mesh; beyond it is an error. [`DEFAULT_MAX_VERTICES`] by default.
+    /// Most vertices of the mesh; beyond it is an error. [`DEFAULT_MAX_VERTICES`] by default. So is looking at eight times as many
+    /// places of the lattice (and at least four million), as where a field all but has the value in a part of the solid.
     pub max_vertices: usize,
     /// Whether vertices get normals.
     pub normals: bool,

@@ -1,11 +1,13 @@
 //! The solids that a mesh can be made of.
 
+use casteljau_geom::SolidJet;
 use casteljau_shape::bernstein::multi_indices;
 use casteljau_solid::{
     ConstructedSolid, Hexahedron, ParametricSolid, RationalHexahedron, RationalTetrahedron, RationalWedge,
     SolidError, Tetrahedron, Wedge,
 };
 
+use super::bends::binade;
 use crate::TessError;
 
 /// A solid of a model, of any kind.
@@ -118,9 +120,15 @@ impl Solid<'_> {
         let solid = self.parametric();
         let domain = solid.domain();
         let wrong = |source: SolidError| TessError::Solid { solid: index, source };
-        let jacobian = solid.try_jacobian(domain.center()).map_err(wrong)?;
-        if jacobian != 0.0 {
-            return Ok(jacobian < 0.0);
+        // Its sign only: each derivative is brought near 1 by a power of two, so that no product of three leaves the range of numbers.
+        let jacobian = |at: [f64; 3]| {
+            let SolidJet { du, dv, dw, .. } = solid.try_jet(at).map_err(wrong)?;
+            let [u, v, w] = [du, dv, dw].map(|d| d / binade(d.abs().max_element()));
+            Ok::<f64, TessError>(u.dot(v.cross(w)))
+        };
+        let at_center = jacobian(domain.center())?;
+        if at_center != 0.0 {
+            return Ok(at_center < 0.0);
         }
         // Barycentric in the domain's own coordinates; a tetrahedron's corner of the box is inside every domain.
         let steps = multi_indices::<4>(7).filter(|at| at.iter().all(|&i| i > 0));
@@ -133,7 +141,7 @@ impl Solid<'_> {
                 casteljau_solid::SolidDomain::Wedge(height) => [local[0], local[1], height.at(local[2])],
                 casteljau_solid::SolidDomain::Tetrahedron => local,
             };
-            let jacobian = solid.try_jacobian(at).map_err(wrong)?;
+            let jacobian = jacobian(at)?;
             if jacobian != 0.0 {
                 return Ok(jacobian < 0.0);
             }
