@@ -44,7 +44,7 @@ pub use curve_jet::{CurveJet, FrenetFrame};
 pub use error::GeomError;
 pub use interval::Interval;
 pub use multi_index::{multi_indices, partial_count, partial_index};
-pub use partials::Partials;
+pub use partials::{LARGEST_ORDER, Partials};
 pub use quotient::{
     ScalarJet, extended_quotient_partials, quotient_curve_jet, quotient_jet, quotient_partials,
 };

@@ -4,6 +4,9 @@ use glam::DVec3;
 
 use crate::multi_index::{multi_indices, partial_count, partial_index};
 
+/// The highest total order that [`Partials`] hold: in three parameters that is some 370,000 derivatives.
+pub const LARGEST_ORDER: usize = 128;
+
 /// A point and all its partial derivatives up to a total order, in N parameters: the jet of any order.
 ///
 /// [`CurveJet`](crate::CurveJet) and [`SurfaceJet`](crate::SurfaceJet) are the fixed ones that the quantities
@@ -22,9 +25,10 @@ pub struct Partials<const N: usize> {
 }
 
 impl<const N: usize> Partials<N> {
-    /// All zero, up to the total order given; to be filled by a shape.
+    /// All zero, up to the total order given, but at most [`LARGEST_ORDER`]; to be filled by a shape.
     #[must_use]
     pub fn zero(order: usize) -> Self {
+        let order = order.min(LARGEST_ORDER);
         Self { order, values: vec![DVec3::ZERO; partial_count::<N>(order)] }
     }
 

@@ -1,8 +1,8 @@
 //! What can be wrong with a shape, and the check every shape makes of its control points.
 
 use casteljau_bernstein::{BernsteinError, MAX_DEGREE};
-use casteljau_geom::GeomError;
 use casteljau_geom::glam::DVec3;
+use casteljau_geom::{GeomError, LARGEST_ORDER};
 use thiserror::Error;
 
 use crate::{ControlPoint, Parameters};
@@ -57,6 +57,23 @@ pub enum ShapeError {
         /// The degree asked for.
         degree: usize,
         /// The largest one served.
+        limit: usize,
+    },
+
+    /// An order of derivatives above [`LARGEST_ORDER`].
+    ///
+    /// ```
+    /// use casteljau_shape::{Curve, ParametricCurve, ShapeError, geom::glam::DVec3};
+    /// let line = Curve::new(vec![DVec3::ZERO, DVec3::X])?;
+    /// let refused = line.try_jet_of_order(0.5, 1000);
+    /// assert_eq!(refused, Err(ShapeError::Order { order: 1000, limit: 128 }));
+    /// # Ok::<(), ShapeError>(())
+    /// ```
+    #[error("derivatives of order {order} are above the limit of {limit}")]
+    Order {
+        /// The order asked for.
+        order: usize,
+        /// The highest one served.
         limit: usize,
     },
 
@@ -392,4 +409,12 @@ pub fn check_points<P: ControlPoint>(points: &[P]) -> Result<(), ShapeError> {
 /// [`ShapeError::Degree`].
 pub fn check_degree(degree: usize) -> Result<(), ShapeError> {
     if degree > MAX_DEGREE { Err(ShapeError::Degree { degree, limit: MAX_DEGREE }) } else { Ok(()) }
+}
+
+/// The order of derivatives that a jet can hold.
+///
+/// # Errors
+/// [`ShapeError::Order`].
+pub fn check_order(order: usize) -> Result<(), ShapeError> {
+    if order > LARGEST_ORDER { Err(ShapeError::Order { order, limit: LARGEST_ORDER }) } else { Ok(()) }
 }

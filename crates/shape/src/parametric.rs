@@ -7,6 +7,7 @@ use casteljau_geom::{Curvatures, CurveJet, FrenetFrame, Interval, Partials, Surf
 
 use crate::ShapeError;
 use crate::area::{MeasuredArea, area};
+use crate::error::check_order;
 
 /// The parameters at which something happened to a shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -99,8 +100,10 @@ pub trait ParametricCurve {
     /// The first one is the point, which exists. Near a pole, and over short intervals, higher derivatives may not.
     ///
     /// # Errors
-    /// [`ShapeError::Parameter`] where a parameter is not finite, [`ShapeError::Evaluation`] where there is no point.
+    /// [`ShapeError::Order`], [`ShapeError::Parameter`] where a parameter is not finite, [`ShapeError::Evaluation`] where
+    /// there is no point.
     fn try_existing_partials(&self, t: f64, order: usize) -> Result<Vec<Option<DVec3>>, ShapeError> {
+        check_order(order)?;
         let mut jet = Partials::<1>::zero(order);
         self.extended_partials(t, jet.as_mut_slice())?;
         let all: Vec<_> = jet.as_slice().iter().map(|d| d.is_finite().then_some(*d)).collect();
@@ -136,8 +139,9 @@ pub trait ParametricCurve {
     /// Point and derivatives of any order.
     ///
     /// # Errors
-    /// Those of [`try_partials`](Self::try_partials).
+    /// [`ShapeError::Order`], and those of [`try_partials`](Self::try_partials).
     fn try_jet_of_order(&self, t: f64, order: usize) -> Result<Partials<1>, ShapeError> {
+        check_order(order)?;
         let mut jet = Partials::zero(order);
         self.try_partials(t, jet.as_mut_slice())?;
         Ok(jet)
@@ -236,8 +240,10 @@ pub trait ParametricSurface {
     /// The first one is the point, which exists. Near a pole, and over short intervals, higher derivatives may not.
     ///
     /// # Errors
-    /// [`ShapeError::Parameter`] where a parameter is not finite, [`ShapeError::Evaluation`] where there is no point.
+    /// [`ShapeError::Order`], [`ShapeError::Parameter`] where a parameter is not finite, [`ShapeError::Evaluation`] where
+    /// there is no point.
     fn try_existing_partials(&self, u: f64, v: f64, order: usize) -> Result<Vec<Option<DVec3>>, ShapeError> {
+        check_order(order)?;
         let mut jet = Partials::<2>::zero(order);
         self.extended_partials(u, v, jet.as_mut_slice())?;
         let all: Vec<_> = jet.as_slice().iter().map(|d| d.is_finite().then_some(*d)).collect();
@@ -275,6 +281,7 @@ pub trait ParametricSurface {
     /// # Errors
     /// Those of [`try_partials`](Self::try_partials).
     fn try_jet_of_order(&self, u: f64, v: f64, order: usize) -> Result<Partials<2>, ShapeError> {
+        check_order(order)?;
         let mut jet = Partials::zero(order);
         self.try_partials(u, v, jet.as_mut_slice())?;
         Ok(jet)

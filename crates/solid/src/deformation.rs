@@ -19,6 +19,9 @@ use crate::{
 /// The highest degree that a composed shape may have.
 pub const LARGEST_COMPOSED_DEGREE: usize = 200;
 
+/// Control points that a composed shape may have, at most.
+pub const MOST_COMPOSED_POINTS: usize = 1_000_000;
+
 /// A solid as a deformation of space: a point (x, y, z) is taken for parameters, and goes to the solid's point there.
 ///
 /// Whole shapes are carried over exactly: the composition of a shape of degree d with a solid of total degree D is of
@@ -48,6 +51,7 @@ pub const LARGEST_COMPOSED_DEGREE: usize = 200;
 ///
 /// # Errors
 /// All methods: [`SolidError::Kernel`] where a degree becomes larger than [`LARGEST_COMPOSED_DEGREE`],
+/// [`SolidError::ComposedPoints`] above [`MOST_COMPOSED_POINTS`],
 /// [`ShapeError::Coordinate`](casteljau_shape::ShapeError::Coordinate) where a number leaves the range.
 pub trait Deformation: ParametricSolid {
     /// The control points of deformed polynomial shapes.
@@ -223,6 +227,11 @@ fn check_degree(total: usize, degrees: &[usize]) -> Result<(), SolidError> {
     Ok(())
 }
 
+fn check_count<S: BernsteinSpace>(total: usize, space: S) -> Result<(), SolidError> {
+    let (needed, limit) = (space.power(total).size()?, MOST_COMPOSED_POINTS);
+    if needed > limit { Err(SolidError::ComposedPoints { needed, limit }) } else { Ok(()) }
+}
+
 /// One coordinate of all points.
 fn column<const D: usize>(points: &[impl Into<[f64; D]> + Copy], axis: usize) -> Vec<f64> {
     points.iter().map(|&p| p.into()[axis]).collect()
@@ -234,6 +243,7 @@ fn polynomial_net<D: Deformation + ?Sized, S: BernsteinSpace>(
     space: S,
 ) -> Result<Vec<D::Point>, SolidError> {
     let [x, y, z] = [0, 1, 2].map(|axis| column(points, axis));
+    check_count(solid.total_degree(), space)?;
     checked(solid.compose_net([&x, &y, &z], space)?)
 }
 
@@ -243,6 +253,7 @@ fn rational_net<D: Deformation + ?Sized, S: BernsteinSpace>(
     space: S,
 ) -> Result<Vec<DVec4>, SolidError> {
     let [x, y, z, w] = [0, 1, 2, 3].map(|axis| column(points, axis));
+    check_count(solid.total_degree(), space)?;
     checked(solid.compose_rational_net([&x, &y, &z], &w, space)?)
 }
 

@@ -91,6 +91,24 @@ pub enum SolidError {
         axes: [Axis; 3],
     },
 
+    /// A composed shape that would have more control points than
+    /// [`MOST_COMPOSED_POINTS`](crate::MOST_COMPOSED_POINTS).
+    ///
+    /// ```
+    /// use casteljau_solid::{Deformation, Hexahedron, SolidError};
+    /// let large = Hexahedron::unit_cube().elevated([39; 3])?;
+    /// let refused = Hexahedron::unit_cube().deform_hexahedron(&large);
+    /// assert_eq!(refused, Err(SolidError::ComposedPoints { needed: 121_usize.pow(3), limit: 1_000_000 }));
+    /// # Ok::<(), SolidError>(())
+    /// ```
+    #[error("the composed shape would have {needed} control points, more than the limit of {limit}")]
+    ComposedPoints {
+        /// The number of its control points.
+        needed: usize,
+        /// The largest number served.
+        limit: usize,
+    },
+
     /// A quantity that a construction cannot be carried out with.
     ///
     /// ```

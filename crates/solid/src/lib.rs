@@ -61,7 +61,7 @@ pub use certificate::{
     jacobian_verdict,
 };
 pub use constructions::{ConstructedSolid, Construction, Twist, rational_rotation};
-pub use deformation::{Deformation, LARGEST_COMPOSED_DEGREE};
+pub use deformation::{Deformation, LARGEST_COMPOSED_DEGREE, MOST_COMPOSED_POINTS};
 pub use domain_tetrahedron::DomainTetrahedron;
 pub use error::SolidError;
 pub use hexahedron::{BezierHexahedron, Hexahedron, RationalHexahedron};

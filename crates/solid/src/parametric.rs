@@ -2,6 +2,7 @@
 
 use casteljau_geom::glam::DVec3;
 use casteljau_geom::{Interval, Partials, SolidJet};
+use casteljau_shape::control_net::check_order;
 use casteljau_shape::{Parameters, ShapeError};
 
 use crate::SolidError;
@@ -105,8 +106,10 @@ pub trait ParametricSolid {
     /// The first one is the point, which exists. Near a pole, and over short intervals, higher derivatives may not.
     ///
     /// # Errors
-    /// [`ShapeError::Parameter`] where a parameter is not finite, [`ShapeError::Evaluation`] where there is no point.
+    /// [`ShapeError::Order`], [`ShapeError::Parameter`] where a parameter is not finite, [`ShapeError::Evaluation`] where
+    /// there is no point.
     fn try_existing_partials(&self, at: [f64; 3], order: usize) -> Result<Vec<Option<DVec3>>, SolidError> {
+        check_order(order)?;
         let mut jet = Partials::<3>::zero(order);
         self.extended_partials(at, jet.as_mut_slice())?;
         let all: Vec<_> = jet.as_slice().iter().map(|d| d.is_finite().then_some(*d)).collect();
@@ -140,8 +143,9 @@ pub trait ParametricSolid {
     /// Point and derivatives of any order.
     ///
     /// # Errors
-    /// Those of [`try_partials`](Self::try_partials).
+    /// [`ShapeError::Order`], and those of [`try_partials`](Self::try_partials).
     fn try_jet_of_order(&self, at: [f64; 3], order: usize) -> Result<Partials<3>, SolidError> {
+        check_order(order)?;
         let mut jet = Partials::zero(order);
         self.try_partials(at, jet.as_mut_slice())?;
         Ok(jet)

@@ -260,6 +260,19 @@ fn wild_weights_do_not_loosen_the_tolerance() {
     }
 }
 
+/// A corner of weight 0 is no point; what is outside is outside all the same.
+#[test]
+fn corners_without_weight() {
+    let points: Vec<DVec3> = Hexahedron::unit_cube().control_points().to_vec();
+    let weights = [0.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0];
+    let solid = RationalHexahedron::new([1; 3], &points, &weights).unwrap();
+    let mut locator = SolidLocator::of_hexahedron(&solid).unwrap();
+    assert_found(&mut locator, &solid, solid.point([0.2, 0.3, 0.4]).unwrap());
+    for p in [DVec3::splat(2.0), DVec3::splat(-1.0), DVec3::new(0.5, 0.5, 1.001)] {
+        assert_eq!(locator.locate(p).unwrap(), None, "{p}");
+    }
+}
+
 /// A point, a line, a sheet: every point of them is found, nothing else.
 #[test]
 fn flat_solids() {

@@ -284,6 +284,16 @@ fn poles_are_errors() {
 }
 
 #[test]
+fn orders_have_a_limit() {
+    let cube = Hexahedron::unit_cube();
+    for order in [129, usize::MAX] {
+        let refused = cube.try_jet_of_order([0.5; 3], order).unwrap_err();
+        assert_eq!(refused, SolidError::Shape(ShapeError::Order { order, limit: 128 }));
+        assert!(cube.try_existing_partials([0.5; 3], order).is_err());
+    }
+}
+
+#[test]
 fn domain_tetrahedra() {
     let vertices = [
         DVec3::new(1.0, 2.0, 3.0),

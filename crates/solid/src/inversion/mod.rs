@@ -122,7 +122,8 @@ impl SolidLocator {
     /// # Errors
     /// [`ShapeError::Query`] where p is not finite or out of range, [`SolidError::Construction`] unless the tolerance
     /// is positive, [`SolidError::Undecided`] where 5,000 cells were not enough, as may happen where the tolerance is
-    /// below the rounding of the solid itself.
+    /// below the rounding of the solid itself, and beside a control point of weight 0 at a corner, where the solid ends in
+    /// a face of its own.
     pub fn locate_within(&mut self, p: DVec3, tolerance: f64) -> Result<Option<Preimage>, SolidError> {
         if let Some(axis) = (0..3).find(|&axis| p[axis].is_nan() || p[axis].abs() > LARGEST_COORDINATE) {
             return Err(ShapeError::Query { axis, value: p[axis] }.into());

@@ -16,8 +16,11 @@ use crate::certificate::{exponent, scaled};
 /// Cells looked at for one point, at most, beyond the first ones.
 const MOST_CELLS: usize = 5_000;
 
-/// Cells that a locator prepares, at least.
+/// Cells that a locator prepares, at least; fewer where their nets would hold more than [`MOST_POINTS`].
 const PREPARED: usize = 64;
+
+/// Control points of all prepared cells together, at most: 128 MB.
+const MOST_POINTS: usize = 1 << 22;
 
 /// Steps of Newton's method from one start.
 const NEWTON_STEPS: usize = 12;
@@ -98,7 +101,7 @@ impl<D: Domain> Search<D> {
             Self { domain, net, origin, in_space, largest, heaviest, shift, size: 0.0, prepared: Vec::new() };
         let mut cells = vec![search.domain.whole()];
         let mut axis = 0;
-        while cells.len() < PREPARED {
+        while cells.len() < PREPARED && 2 * cells.len() * points.len() <= MOST_POINTS {
             cells = cells.iter().flat_map(|cell| search.domain.halves(cell, axis)).collect();
             axis += 1;
         }
@@ -312,7 +315,9 @@ impl<D: Domain> Search<D> {
         // Once for the net, and once for the product with M, which rounds less.
         let rounding = margin * 2.0;
         let (mut above, mut below) = (BVec3::TRUE, BVec3::TRUE);
-        for q in net {
+        // A coefficient that is 0 by itself says nothing: where it stands alone the weight vanishes too, and there is no
+        // point.
+        for q in net.iter().filter(|q| **q != DVec4::ZERO) {
             // What is not a number is neither.
             let g = m * (q.xyz() - p * q.w);
             (above, below) = (above & g.cmpgt(rounding), below & g.cmplt(-rounding));
