@@ -141,6 +141,12 @@ pub fn checked<P: ControlPoint>(points: Vec<P>) -> Result<Vec<P>, ShapeError> {
     Ok(points)
 }
 
+/// Control points with their weights, `(w·x, w·y, w·z, w)`.
+#[must_use]
+pub fn homogeneous<P: ControlPoint>(points: &[P]) -> Vec<DVec4> {
+    points.iter().map(|p| p.homogeneous()).collect()
+}
+
 /// The largest weight in absolute value.
 #[must_use]
 pub fn largest_weight<P: ControlPoint>(points: &[P]) -> f64 {

@@ -5,7 +5,7 @@ use casteljau_bernstein::{
     compose_wedge, compose_wedge_homogeneous,
 };
 use casteljau_geom::glam::{DVec3, DVec4};
-use casteljau_shape::control_net::check_points;
+use casteljau_shape::control_net::{check_points, homogeneous};
 use casteljau_shape::{
     BezierCurve, BezierPatch, BezierTriangle, ControlPoint, Curve, Patch, RationalCurve, RationalPatch,
     RationalTriangle, Triangle,
@@ -265,10 +265,6 @@ fn checked<P: ControlPoint>(points: Vec<P>) -> Result<Vec<P>, SolidError> {
 /// A difference, coefficient by coefficient.
 fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
-}
-
-fn homogeneous<P: ControlPoint>(points: &[P]) -> Vec<DVec4> {
-    points.iter().map(|p| p.homogeneous()).collect()
 }
 
 impl<P: ControlPoint> Deformation for BezierHexahedron<P> {

@@ -5,7 +5,7 @@ use casteljau_geom::Interval;
 use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
 
 use super::minima::{clusters, over, sign};
-use super::net::{LocalNet, homogeneous};
+use super::net::{LocalNet, positive};
 use super::newton::{descend, evaluate};
 use super::tree::{Best, Cuts, Tree};
 use super::{LocalMinima, LocalMinimum, LocalProjection, Projection, check_query};
@@ -37,7 +37,7 @@ impl CurveProjector {
     /// # Errors
     /// [`ShapeError::Weight`] unless all weights have one sign.
     pub fn new<P: ControlPoint>(curve: &BezierCurve<P>) -> Result<Self, ShapeError> {
-        let control_points = homogeneous(curve.control_points());
+        let control_points = positive(curve.control_points());
         let net = LocalNet::new(&control_points, [curve.degree(), 0])?;
         Ok(Self { control_points, interval: curve.interval(), tree: Tree::new(net, Cuts::default()) })
     }

@@ -238,8 +238,8 @@ pub(super) fn check_weights(points: &[DVec4]) -> Result<(), ShapeError> {
 }
 
 /// A shape's control points with their weights, which become positive if all are negative.
-pub(super) fn homogeneous<P: ControlPoint>(points: &[P]) -> Vec<DVec4> {
-    let points: Vec<DVec4> = points.iter().map(|p| p.homogeneous()).collect();
+pub(super) fn positive<P: ControlPoint>(points: &[P]) -> Vec<DVec4> {
+    let points = crate::control_point::homogeneous(points);
     if points.iter().all(|p| p.w < 0.0) { points.into_iter().map(|p| -p).collect() } else { points }
 }
 

@@ -5,7 +5,7 @@ use casteljau_geom::Interval;
 use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
 
 use super::minima::{Found, clusters, over, sign};
-use super::net::{LocalNet, homogeneous};
+use super::net::{LocalNet, positive};
 use super::newton::{descend, evaluate};
 use super::tree::{Best, Cuts, Tree};
 use super::{LocalMinima, LocalMinimum, LocalProjection, Projection, check_query};
@@ -90,7 +90,7 @@ impl PatchProjector {
     /// # Errors
     /// [`ShapeError::Weight`] unless all weights have one sign.
     pub fn new<P: ControlPoint>(patch: &BezierPatch<P>) -> Result<Self, ShapeError> {
-        Self::of_net(homogeneous(patch.control_points()), patch.degrees(), patch.intervals(), Cuts::default())
+        Self::of_net(positive(patch.control_points()), patch.degrees(), patch.intervals(), Cuts::default())
     }
 
     /// The same from homogeneous control points.

@@ -4,7 +4,7 @@ use casteljau_bernstein::{TriangleNet, elevate, last_barycentric};
 use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
 use casteljau_geom::{Interval, UNIT_ROUNDOFF};
 
-use super::net::{LocalNet, check_weights, homogeneous};
+use super::net::{LocalNet, check_weights, positive};
 use super::newton::descend;
 use super::patch::{PatchProjector, Place};
 use super::tree::Cuts;
@@ -49,7 +49,7 @@ impl TriangleProjector {
     /// [`ShapeError::Weight`] unless all weights have one sign.
     pub fn new<P: ControlPoint>(triangle: &BezierTriangle<P>) -> Result<Self, ShapeError> {
         let degree = triangle.degree();
-        let control_points = homogeneous(triangle.control_points());
+        let control_points = positive(triangle.control_points());
         check_weights(&control_points)?;
         // An edge that is a point is kept apart from the apex, so that each has a side of its own.
         let mut apex = None;

@@ -6,7 +6,8 @@ mod search;
 use std::fmt;
 
 use casteljau_geom::UNIT_ROUNDOFF;
-use casteljau_geom::glam::{DVec3, DVec4};
+use casteljau_geom::glam::DVec3;
+use casteljau_shape::control_net::homogeneous;
 use casteljau_shape::{ControlPoint, LARGEST_COORDINATE, ShapeError};
 
 use self::domain::{Corner, Cube, Prism};
@@ -54,10 +55,6 @@ impl fmt::Debug for SolidLocator {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("SolidLocator").field("domain", &self.domain).field("size", &self.size()).finish()
     }
-}
-
-fn homogeneous<P: ControlPoint>(points: &[P]) -> Vec<DVec4> {
-    points.iter().map(|p| p.homogeneous()).collect()
 }
 
 impl SolidLocator {
