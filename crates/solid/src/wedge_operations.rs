@@ -49,6 +49,21 @@ impl<P: ControlPoint> BezierWedge<P> {
         Ok(BezierPatch::from_net([Interval::UNIT, self.height()], [n, o], points)?)
     }
 
+    /// The patch over the straight line from one point (λ₁, λ₂) of the triangle to another, of degrees n and o: u runs over
+    /// `[0, 1]` from the first to the second, v is w.
+    ///
+    /// With points where one coordinate is c it is the iso-parametric patch λₐ = c.
+    ///
+    /// # Errors
+    /// Those of [`triangle_at`](Self::triangle_at).
+    pub fn patch_between(&self, [a, b]: [[f64; 2]; 2]) -> Result<BezierPatch<P>, SolidError> {
+        let part = self.restricted([a, b, b], self.height())?;
+        let [n, o] = self.degrees();
+        let mut points = vec![P::ZERO; (n + 1) * (o + 1)];
+        part.net().quad_face([0, 1], &mut points)?;
+        Ok(BezierPatch::from_net([Interval::UNIT, self.height()], [n, o], points)?)
+    }
+
     /// The curve along the height over the point (λ₁, λ₂) of the triangle; at a vertex, an edge of the wedge to the bit.
     ///
     /// # Errors

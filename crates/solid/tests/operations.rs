@@ -155,6 +155,10 @@ proptest! {
         let exact = solid.point([a, b, w]).unwrap();
         same(solid.triangle_at(w).unwrap().point(a, b).unwrap(), exact, degree, scale)?;
         same(solid.curve_at([a, b]).unwrap().point(w).unwrap(), exact, degree, scale)?;
+        // The patch λ₁ = a, by an exact point of the line.
+        let sheet = solid.patch_between([[a, 1.0 - a], [a, 0.0]]).unwrap();
+        let across = [a, (1.0 - a) * (1.0 - cut), w];
+        same(sheet.point(cut, w).unwrap(), solid.point(across).unwrap(), 2 * degree, scale)?;
         for top in [false, true] {
             let face = solid.triangle_face(top).unwrap();
             prop_assert!(face.control_points().iter().all(|p| solid.control_points().contains(p)));
