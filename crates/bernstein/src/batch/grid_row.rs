@@ -29,10 +29,15 @@ pub(super) fn plain<S: Lanes, C: Curves, const D: usize, const K: usize, const N
     place: usize,
 ) {
     for column in (0..columns.count).step_by(S::F64_LANES) {
-        let jet: [_; K] = jet::<S, D, K, N>(simd, columns, column, curves);
-        for k in 0..K {
-            store(simd, out[k], place + column, jet[k]);
-        }
+        // Each kind is stored before the next is begun, so that nothing leaves the registers.
+        kinds::<S, D, K, N>(
+            simd,
+            columns,
+            column,
+            curves,
+            #[inline(always)]
+            |k, points| store(simd, out[k], place + column, points),
+        );
     }
 }
 
@@ -45,22 +50,44 @@ pub(super) fn jet<S: Lanes, const D: usize, const K: usize, const N: usize>(
     column: usize,
     curves: &impl Curves,
 ) -> [[S::f64s; D]; K] {
+    let mut jet = [[simd.splat_f64s(0.0); D]; K];
+    kinds::<S, D, K, N>(
+        simd,
+        columns,
+        column,
+        curves,
+        #[inline(always)]
+        |k, points| jet[k] = points,
+    );
+    jet
+}
+
+/// Hands out what [`jet`] gives, kind by kind.
+#[inline(always)]
+fn kinds<S: Lanes, const D: usize, const K: usize, const N: usize>(
+    simd: S,
+    columns: &Columns,
+    column: usize,
+    curves: &impl Curves,
+    emit: impl FnMut(usize, [S::f64s; D]),
+) {
     if N == TABULATED {
-        return in_kinds::<S, D, K>(
-            simd,
+        in_kinds::<S, D, K>(
             #[inline(always)]
             |k| columns.by_table::<S, D, 0>(simd, column, curves.curve::<D, N, 0>(k)),
             #[inline(always)]
             |k| columns.by_table::<S, D, 1>(simd, column, curves.curve::<D, N, 1>(k)),
             #[inline(always)]
             |k| columns.by_table::<S, D, 2>(simd, column, curves.curve::<D, N, 2>(k)),
+            emit,
         );
+        return;
     }
     let t = columns.parameter(simd, column);
     if t.some {
-        by_horner::<S, D, K, N, true>(&t, curves)
+        by_horner::<S, D, K, N, true>(&t, curves, emit);
     } else {
-        by_horner::<S, D, K, N, false>(&t, curves)
+        by_horner::<S, D, K, N, false>(&t, curves, emit);
     }
 }
 
@@ -68,45 +95,44 @@ pub(super) fn jet<S: Lanes, const D: usize, const K: usize, const N: usize>(
 fn by_horner<S: Lanes, const D: usize, const K: usize, const N: usize, const MIXED: bool>(
     t: &Parameter<S>,
     curves: &impl Curves,
-) -> [[S::f64s; D]; K] {
+    emit: impl FnMut(usize, [S::f64s; D]),
+) {
     in_kinds::<S, D, K>(
-        t.simd,
         #[inline(always)]
         |k| t.value::<D, MIXED>(curves.curve::<D, N, 0>(k)),
         #[inline(always)]
         |k| t.value::<D, MIXED>(curves.curve::<D, N, 1>(k)),
         #[inline(always)]
         |k| t.value::<D, MIXED>(curves.curve::<D, N, 2>(k)),
-    )
+        emit,
+    );
 }
 
 /// All kinds of derivatives, each by the closure for its order with the columns' parameter.
 #[inline(always)]
 fn in_kinds<S: Lanes, const D: usize, const K: usize>(
-    simd: S,
     value: impl Fn(usize) -> [S::f64s; D],
     first: impl Fn(usize) -> [S::f64s; D],
     second: impl Fn(usize) -> [S::f64s; D],
-) -> [[S::f64s; D]; K] {
-    let mut jet = [[simd.splat_f64s(0.0); D]; K];
+    mut emit: impl FnMut(usize, [S::f64s; D]),
+) {
     // Written out: the compiler must see the orders to unroll what depends on them.
-    jet[0] = value(0);
+    emit(0, value(0));
     if K == 4 {
-        jet[1] = value(1);
-        jet[2] = value(2);
-        jet[3] = first(3);
-        return jet;
+        emit(1, value(1));
+        emit(2, value(2));
+        emit(3, first(3));
+        return;
     }
     if K >= 3 {
-        jet[1] = value(1);
-        jet[2] = first(2);
+        emit(1, value(1));
+        emit(2, first(2));
     }
     if K >= 6 {
-        jet[3] = value(3);
-        jet[4] = first(4);
-        jet[5] = second(5);
+        emit(3, value(3));
+        emit(4, first(4));
+        emit(5, second(5));
     }
-    jet
 }
 
 /// Numerator and denominator with their derivatives, all divided by the same power of the columns' base, which the quotient
@@ -118,15 +144,18 @@ fn homogeneous<S: Lanes, const K: usize, const N: usize, const MIXED: bool>(
     inverse: S::f64s,
     curves: &impl Curves,
 ) -> [[S::f64s; 4]; K] {
+    let mut jet = [[simd.splat_f64s(0.0); 4]; K];
     in_kinds::<S, 4, K>(
-        simd,
         #[inline(always)]
         |k| t.sum::<4, MIXED>(curves.curve::<4, N, 0>(k)),
         #[inline(always)]
         |k| times(simd, t.sum::<4, MIXED>(curves.curve::<4, N, 1>(k)), inverse),
         #[inline(always)]
         |k| times(simd, t.sum::<4, MIXED>(curves.curve::<4, N, 2>(k)), simd.mul_f64s(inverse, inverse)),
-    )
+        #[inline(always)]
+        |k, homogeneous| jet[k] = homogeneous,
+    );
+    jet
 }
 
 /// A point of each lane times a number of each lane.
@@ -136,6 +165,39 @@ fn times<S: Lanes>(simd: S, mut points: [S::f64s; 4], factor: S::f64s) -> [S::f6
         points[c] = simd.mul_f64s(points[c], factor);
     }
     points
+}
+
+/// A register of points with their first derivatives, where no denominator can vanish: each kind is stored before the next is
+/// begun, so that nothing leaves the registers. The operations are those of [`homogeneous`] and [`partials`].
+#[inline(always)]
+fn certain<S: Lanes, C: Curves, const K: usize, const N: usize, const MIXED: bool>(
+    t: &Parameter<S>,
+    inverse: S::f64s,
+    curves: &C,
+    out: &mut [&mut [f64]; K],
+    place: usize,
+) {
+    let simd = t.simd;
+    let value = t.sum::<4, MIXED>(curves.curve::<4, N, 0>(0));
+    let reciprocal = simd.div_f64s(simd.splat_f64s(1.0), value[3]);
+    let mut point = [reciprocal; 3];
+    for c in 0..3 {
+        point[c] = simd.mul_f64s(value[c], reciprocal);
+    }
+    store(simd, out[0], place, point);
+    for k in 1..K {
+        let jet = if k + 1 == K {
+            times(simd, t.sum::<4, MIXED>(curves.curve::<4, N, 1>(k)), inverse)
+        } else {
+            t.sum::<4, MIXED>(curves.curve::<4, N, 0>(k))
+        };
+        let weight = simd.neg_f64s(jet[3]);
+        let mut first = point;
+        for c in 0..3 {
+            first[c] = simd.mul_f64s(simd.mul_add_f64s(point[c], weight, jet[c]), reciprocal);
+        }
+        store(simd, out[k], place, first);
+    }
 }
 
 /// A row where denominators may vanish.
@@ -167,6 +229,14 @@ pub(super) fn rational<
     for column in (0..columns.count).step_by(S::F64_LANES) {
         let t = columns.parameter(simd, column);
         let inverse = columns.inverse(simd, column);
+        if K <= P + 1 && doubtful.bound.is_none() {
+            if t.some {
+                certain::<S, C, K, N, true>(&t, inverse, curves, out, place + column);
+            } else {
+                certain::<S, C, K, N, false>(&t, inverse, curves, out, place + column);
+            }
+            continue;
+        }
         let jet: [_; K] = if t.some {
             homogeneous::<S, K, N, true>(simd, &t, inverse, curves)
         } else {
