@@ -101,10 +101,9 @@ impl RationalHexahedron {
         check_angle(angle)?;
         let swept = Self::transitional(patch, curve)?;
         let [l, m, n] = swept.degrees();
-        let half_degree = (angle.abs() / PI).floor() + 1.0;
-        // Beyond the limit the number itself no longer matters, nor whether it fits.
-        let k = half_degree.min(2.0 * MAX_DEGREE as f64) as usize;
-        let degree = n + 2 * k;
+        // Casts and sums stop at the largest number: it is refused all the same.
+        let k = ((angle.abs() / PI).floor() + 1.0) as usize;
+        let degree = n.saturating_add(k.saturating_mul(2));
         if degree > MAX_DEGREE {
             return Err(BernsteinError::Degree { degree, limit: MAX_DEGREE }.into());
         }
