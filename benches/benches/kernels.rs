@@ -15,12 +15,12 @@
 //! | curve of degree 9 | 24 | 30 | 1.0 | 1.6 | 1.8 |
 //! | curve of degree 25 | 24 | 83 | 2.8 | 3.6 | 5.8 |
 //! | rational cubic: two divisions, which take the multiplier's place | 24 | 16 | 0.54 | 1.19 | 1.08 |
-//! | bicubic grid: a row's curve at its column | 24 | 12 | 0.43 | 1.09 | 1.5 |
-//! | with first derivatives: three streams of stores | 72 | 33 | 2.6 | 3.7 | 3.7 |
-//! | with unit normals | 48 | 51 | 1.7 | 2.9 | 3.0 |
+//! | bicubic grid: a row's curve at its column | 24 | 12 | 0.43 | 1.12 | 1.5 |
+//! | with first derivatives: three streams of stores | 72 | 33 | 2.6 | 4.2 | 3.7 |
+//! | with unit normals | 48 | 51 | 1.7 | 3.3 | 3.0 |
 //! | rational biquintic grid | 24 | 24 | 0.81 | 1.5 | 1.7 |
-//! | with first derivatives | 72 | 74 | 2.6 | 5.1 | 4.6 |
-//! | 10,000 bicubic patches on 16 × 16: a row's curve serves two registers | 24 | 12 | 0.87 | 1.6 | 1.15 |
+//! | with first derivatives | 72 | 74 | 2.6 | 4.9 | 4.6 |
+//! | 10,000 bicubic patches on 16 × 16: a row's curve serves two registers | 24 | 12 | 0.87 | 1.5 | 1.15 |
 //! | bicubic at scattered points: all control points, two divisions | 24 | 50 | 1.7 | 2.5 | 2.2 |
 //! | with first derivatives | 72 | 126 | 4.3 | 5.7 | 6.6 |
 //! | patch split: six affine combinations of 4 points, two operations each | 768 | 144 | 28 | 51 | 68 |

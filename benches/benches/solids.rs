@@ -1,26 +1,24 @@
 //! Batches over boxes, tetrahedra and wedges on one thread, against what this machine can do.
 //!
 //! Run with `cargo bench -p casteljau-benches --bench solids`. Figures of one core of an AMD EPYC (Zen 4, AVX-512) in
-//! nanoseconds a point: the limit at 28 GB/s stored and 29.5 billion multiply-adds a second, the least measured with a thousand
-//! points (grids with 16³), which stay in the cache, and with a million (128³), and the bar, its 15 % included. The machine was
-//! not quiet: other work had both of its cores and most of its memory's speed, about 20 GB/s being left, so that long rows are
-//! too high by what it took.
+//! nanoseconds a point; it stored 57 GB/s into 24 MB and 28 GB/s into 72 MB, and did 29.5 billion multiply-adds a second. The
+//! bar has its 15 % included; wedges have twice their limit for one.
 //!
-//! | work a point | bytes | multiply-adds | limit | in the cache | a million | bar |
-//! | --- | --- | --- | --- | --- | --- | --- |
-//! | box (3,3,3), scattered | 24 | 195 | 6.6 | 8.2 | 8.4 | 13.8 |
-//! | with first derivatives | 96 | 636 | 22 | 25 | 29 | 55 |
-//! | rational box (2,2,5), scattered | 24 | 219 | 7.4 | 9.4 | 9.6 | 13.8 |
-//! | box (3,3,3) on a grid | 24 | 12 | 0.86 | 1.5 | 0.95 | 1.15 |
-//! | with first derivatives: four streams of stores | 96 | 45 | 3.4 | 5.4 | 5.7 | 4.6 |
-//! | rational box (2,2,5) on a grid | 24 | 24 | 0.86 | 3.4 | 1.43 | 1.5 |
-//! | with first derivatives | 96 | 107 | 3.6 | 10.4 | 10.7 | 6.0 |
-//! | rational tetrahedron of degree 4 | 24 | 142 | 4.8 | 7.7 | 8.1 | 8.9 |
-//! | with first derivatives | 96 | 409 | 14 | 20 | 29 | 35 |
-//! | rational tetrahedron of degree 10 | 24 | 1146 | 39 | 43 | 43 | 39 |
-//! | with first derivatives | 96 | 3813 | 129 | 141 | 200 | 156 |
-//! | rational wedge (3,3) | 24 | 162 | 5.5 | 7.7 | 7.8 | none |
-//! | with first derivatives | 96 | 483 | 16 | | 40 | none |
+//! | work a point | bytes | multiply-adds | limit | measured | bar |
+//! | --- | --- | --- | --- | --- | --- |
+//! | box (3,3,3), scattered | 24 | 195 | 6.6 | 8.4 | 13.8 |
+//! | with first derivatives | 96 | 636 | 22 | 25 | 55 |
+//! | rational box (2,2,5), scattered | 24 | 219 | 7.4 | 9.6 | 13.8 |
+//! | box (3,3,3) on a 128³ grid | 24 | 12 | 0.85 | 0.87 | 1.15 |
+//! | with first derivatives: four streams of stores | 96 | 45 | 3.4 | 5.1 | 4.6 |
+//! | rational box (2,2,5) on a 128³ grid | 24 | 24 | 0.85 | 1.3 | 1.5 |
+//! | with first derivatives | 96 | 107 | 3.6 | 6.3 | 6.0 |
+//! | rational tetrahedron of degree 4 | 24 | 142 | 4.8 | 8.1 | 8.9 |
+//! | with first derivatives | 96 | 409 | 14 | 21 | 35 |
+//! | rational tetrahedron of degree 10 | 24 | 1146 | 39 | 43 | 39 |
+//! | with first derivatives | 96 | 3813 | 129 | 142 | 156 |
+//! | rational wedge (3,3) | 24 | 162 | 5.5 | 7.7 | none |
+//! | with first derivatives | 96 | 483 | 16 | 25 | none |
 //!
 //! The bar of degree 10 is the limit itself: each of 286 points takes a multiply-add for each of its four components. On the grid of
 //! 16³ every other register holds w = 1, whose lanes take the second form of Horner's scheme, where it is not tabulated.

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use super::blocks::store;
 use super::grid::GridBatch;
 use super::grid_row::{Doubtful, jet, plain, rational};
-use super::grid_table::{self, Columns, TABULATED};
+use super::grid_table::{self, Columns, takes_table};
 use super::nets::Nets;
 use super::normal::unit_normal;
 use super::quotient::{is_tame, largest_weight, scale, uncertainty};
@@ -58,7 +58,7 @@ impl<const K: usize, const KIND: u8, const N: usize> Job for Rows<'_, K, KIND, N
             if KIND == NORMALS {
                 scratch.normalize_first();
             }
-            if KIND == RATIONAL || N != TABULATED {
+            if KIND == RATIONAL || !takes_table(N, K) {
                 scratch.multiply_by_binomials();
             }
             let poles = Poles::new::<KIND>(u, v, net);

@@ -4,7 +4,7 @@
 #![allow(clippy::needless_range_loop)]
 
 use super::blocks::store;
-use super::grid_table::{Columns, TABULATED};
+use super::grid_table::{Columns, takes_table};
 use super::horner::Parameter;
 use super::quotient::{lane, partials, settle, suspicious};
 use super::simd::Lanes;
@@ -29,15 +29,10 @@ pub(super) fn plain<S: Lanes, C: Curves, const D: usize, const K: usize, const N
     place: usize,
 ) {
     for column in (0..columns.count).step_by(S::F64_LANES) {
-        // Each kind is stored before the next is begun, so that nothing leaves the registers.
-        kinds::<S, D, K, N>(
-            simd,
-            columns,
-            column,
-            curves,
-            #[inline(always)]
-            |k, points| store(simd, out[k], place + column, points),
-        );
+        let jet: [_; K] = jet::<S, D, K, N>(simd, columns, column, curves);
+        for k in 0..K {
+            store(simd, out[k], place + column, jet[k]);
+        }
     }
 }
 
@@ -50,44 +45,22 @@ pub(super) fn jet<S: Lanes, const D: usize, const K: usize, const N: usize>(
     column: usize,
     curves: &impl Curves,
 ) -> [[S::f64s; D]; K] {
-    let mut jet = [[simd.splat_f64s(0.0); D]; K];
-    kinds::<S, D, K, N>(
-        simd,
-        columns,
-        column,
-        curves,
-        #[inline(always)]
-        |k, points| jet[k] = points,
-    );
-    jet
-}
-
-/// Hands out what [`jet`] gives, kind by kind.
-#[inline(always)]
-fn kinds<S: Lanes, const D: usize, const K: usize, const N: usize>(
-    simd: S,
-    columns: &Columns,
-    column: usize,
-    curves: &impl Curves,
-    emit: impl FnMut(usize, [S::f64s; D]),
-) {
-    if N == TABULATED {
-        in_kinds::<S, D, K>(
+    if takes_table(N, K) {
+        return in_kinds::<S, D, K>(
+            simd,
             #[inline(always)]
             |k| columns.by_table::<S, D, 0>(simd, column, curves.curve::<D, N, 0>(k)),
             #[inline(always)]
             |k| columns.by_table::<S, D, 1>(simd, column, curves.curve::<D, N, 1>(k)),
             #[inline(always)]
             |k| columns.by_table::<S, D, 2>(simd, column, curves.curve::<D, N, 2>(k)),
-            emit,
         );
-        return;
     }
     let t = columns.parameter(simd, column);
     if t.some {
-        by_horner::<S, D, K, N, true>(&t, curves, emit);
+        by_horner::<S, D, K, N, true>(&t, curves)
     } else {
-        by_horner::<S, D, K, N, false>(&t, curves, emit);
+        by_horner::<S, D, K, N, false>(&t, curves)
     }
 }
 
@@ -95,44 +68,45 @@ fn kinds<S: Lanes, const D: usize, const K: usize, const N: usize>(
 fn by_horner<S: Lanes, const D: usize, const K: usize, const N: usize, const MIXED: bool>(
     t: &Parameter<S>,
     curves: &impl Curves,
-    emit: impl FnMut(usize, [S::f64s; D]),
-) {
+) -> [[S::f64s; D]; K] {
     in_kinds::<S, D, K>(
+        t.simd,
         #[inline(always)]
         |k| t.value::<D, MIXED>(curves.curve::<D, N, 0>(k)),
         #[inline(always)]
         |k| t.value::<D, MIXED>(curves.curve::<D, N, 1>(k)),
         #[inline(always)]
         |k| t.value::<D, MIXED>(curves.curve::<D, N, 2>(k)),
-        emit,
-    );
+    )
 }
 
 /// All kinds of derivatives, each by the closure for its order with the columns' parameter.
 #[inline(always)]
 fn in_kinds<S: Lanes, const D: usize, const K: usize>(
+    simd: S,
     value: impl Fn(usize) -> [S::f64s; D],
     first: impl Fn(usize) -> [S::f64s; D],
     second: impl Fn(usize) -> [S::f64s; D],
-    mut emit: impl FnMut(usize, [S::f64s; D]),
-) {
+) -> [[S::f64s; D]; K] {
+    let mut jet = [[simd.splat_f64s(0.0); D]; K];
     // Written out: the compiler must see the orders to unroll what depends on them.
-    emit(0, value(0));
+    jet[0] = value(0);
     if K == 4 {
-        emit(1, value(1));
-        emit(2, value(2));
-        emit(3, first(3));
-        return;
+        jet[1] = value(1);
+        jet[2] = value(2);
+        jet[3] = first(3);
+        return jet;
     }
     if K >= 3 {
-        emit(1, value(1));
-        emit(2, first(2));
+        jet[1] = value(1);
+        jet[2] = first(2);
     }
     if K >= 6 {
-        emit(3, value(3));
-        emit(4, first(4));
-        emit(5, second(5));
+        jet[3] = value(3);
+        jet[4] = first(4);
+        jet[5] = second(5);
     }
+    jet
 }
 
 /// Numerator and denominator with their derivatives, all divided by the same power of the columns' base, which the quotient
@@ -144,18 +118,15 @@ fn homogeneous<S: Lanes, const K: usize, const N: usize, const MIXED: bool>(
     inverse: S::f64s,
     curves: &impl Curves,
 ) -> [[S::f64s; 4]; K] {
-    let mut jet = [[simd.splat_f64s(0.0); 4]; K];
     in_kinds::<S, 4, K>(
+        simd,
         #[inline(always)]
         |k| t.sum::<4, MIXED>(curves.curve::<4, N, 0>(k)),
         #[inline(always)]
         |k| times(simd, t.sum::<4, MIXED>(curves.curve::<4, N, 1>(k)), inverse),
         #[inline(always)]
         |k| times(simd, t.sum::<4, MIXED>(curves.curve::<4, N, 2>(k)), simd.mul_f64s(inverse, inverse)),
-        #[inline(always)]
-        |k, homogeneous| jet[k] = homogeneous,
-    );
-    jet
+    )
 }
 
 /// A point of each lane times a number of each lane.

@@ -14,6 +14,11 @@ pub(super) const MAX_ORDER: usize = 2;
 /// the first cache.
 pub(super) const TABULATED: usize = 3;
 
+/// Whether grids of columns of degree `N` take the table for `K` kinds of derivatives: on patches it pays for values alone.
+pub(super) const fn takes_table(n: usize, kinds: usize) -> bool {
+    n == TABULATED && (kinds == 1 || kinds == 4)
+}
+
 /// The rows u = constant: the Bernstein polynomials of degrees m, m − 1, m − 2.
 #[derive(Debug, Clone)]
 pub(super) struct Rows {
