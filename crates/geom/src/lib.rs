@@ -50,4 +50,4 @@ pub use quotient::{
 };
 pub use solid_jet::SolidJet;
 pub use surface_jet::{SurfaceJet, TangentPlane};
-pub use tolerance::{COLLAPSE, UNIT_ROUNDOFF, rounding_bound};
+pub use tolerance::{COLLAPSE, UNIT_ROUNDOFF, power_of_two_below, rounding_bound};

@@ -18,3 +18,21 @@ pub const COLLAPSE: f64 = 512.0 * UNIT_ROUNDOFF;
 pub const fn rounding_bound(degree: usize, order: usize, scale: f64) -> f64 {
     (4 * (degree + 2 * order + 2)) as f64 * UNIT_ROUNDOFF * scale
 }
+
+/// The largest power of two that is not above a positive number, and at least the smallest normal one: the unit in which
+/// numbers of this size are scaled without rounding. 1 for what is no positive finite number.
+///
+/// ```
+/// use casteljau_geom::power_of_two_below;
+/// assert_eq!([5.0, 0.75, 0.0, f64::INFINITY].map(power_of_two_below), [4.0, 0.5, 1.0, 1.0]);
+/// assert_eq!(power_of_two_below(1e-320), f64::MIN_POSITIVE);
+/// ```
+#[must_use]
+pub fn power_of_two_below(x: f64) -> f64 {
+    // The sign and fraction bits removed.
+    if x > 0.0 && x.is_finite() {
+        f64::from_bits(x.max(f64::MIN_POSITIVE).to_bits() & (0x7ff << 52))
+    } else {
+        1.0
+    }
+}

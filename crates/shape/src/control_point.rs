@@ -161,6 +161,13 @@ pub fn has_hull<P: ControlPoint>(points: &[P]) -> bool {
     points.iter().all(|p| p.homogeneous().w * sign > 0.0)
 }
 
+/// The box around points of which there are some, all finite, as a checked polynomial shape has them; the origin otherwise.
+#[must_use]
+pub fn points_box(points: &[DVec3]) -> BoundingBox {
+    let origin = BoundingBox { min: DVec3::ZERO, max: DVec3::ZERO };
+    BoundingBox::from_points(points.iter().copied()).unwrap_or(origin)
+}
+
 /// The box around the control points in space; `None` unless [`has_hull`], or where a quotient overflows.
 #[must_use]
 pub fn hull_box<P: ControlPoint>(points: &[P]) -> Option<BoundingBox> {

@@ -4,7 +4,7 @@ use casteljau_bernstein::{MAX_DEGREE, basis_barycentric, derivatives, value};
 use casteljau_geom::glam::{DVec3, DVec4};
 use casteljau_geom::{BoundingBox, CurveJet, Interval, rounding_bound};
 
-use crate::control_point::{checked, hull_box, largest_weight, lifted};
+use crate::control_point::{checked, hull_box, largest_weight, lifted, points_box};
 use crate::error::check_degree;
 use crate::{ControlPoint, Parameters, ParametricCurve, ShapeError};
 
@@ -190,9 +190,7 @@ impl Curve {
     /// The box around the control points; by the convex hull property it contains the curve over its interval.
     #[must_use]
     pub fn bounding_box(&self) -> BoundingBox {
-        let first = self.control_points[0];
-        let point = BoundingBox { min: first, max: first };
-        self.control_points.iter().fold(point, |b, &p| BoundingBox { min: b.min.min(p), max: b.max.max(p) })
+        points_box(&self.control_points)
     }
 }
 

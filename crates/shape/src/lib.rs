@@ -59,7 +59,7 @@ mod triangle_operations;
 /// What shapes of every kind check their control points with, and bound themselves by.
 pub mod control_net {
     pub use crate::control_point::{
-        checked, distance_bound, has_hull, homogeneous, hull_box, largest_weight, lifted,
+        checked, distance_bound, has_hull, homogeneous, hull_box, largest_weight, lifted, points_box,
     };
     pub use crate::error::{check_degree, check_order, check_points};
     pub use crate::tight_box::{Grid, Halving, tight_box};

@@ -4,7 +4,7 @@ use casteljau_bernstein::{MAX_DEGREE, TensorNet, basis_barycentric};
 use casteljau_geom::glam::{DVec3, DVec4};
 use casteljau_geom::{BoundingBox, Interval, SurfaceJet, multi_indices, rounding_bound};
 
-use crate::control_point::{checked, hull_box, largest_weight, lifted};
+use crate::control_point::{checked, hull_box, largest_weight, lifted, points_box};
 use crate::error::check_degree;
 use crate::{ControlPoint, Parameters, ParametricSurface, ShapeError, SurfaceDomain};
 
@@ -193,9 +193,7 @@ impl Patch {
     /// rectangle.
     #[must_use]
     pub fn bounding_box(&self) -> BoundingBox {
-        let first = self.control_points[0];
-        let point = BoundingBox { min: first, max: first };
-        self.control_points.iter().fold(point, |b, &p| BoundingBox { min: b.min.min(p), max: b.max.max(p) })
+        points_box(&self.control_points)
     }
 }
 

@@ -4,7 +4,7 @@ use casteljau_bernstein::{TriangleNet, last_barycentric, simplex_count};
 use casteljau_geom::glam::{DVec3, DVec4};
 use casteljau_geom::{BoundingBox, SurfaceJet, rounding_bound};
 
-use crate::control_point::{checked, hull_box, largest_weight, lifted};
+use crate::control_point::{checked, hull_box, largest_weight, lifted, points_box};
 use crate::error::check_degree;
 use crate::{ControlPoint, Parameters, ParametricSurface, ShapeError, SurfaceDomain};
 
@@ -152,9 +152,7 @@ impl Triangle {
     /// The box around the control points; by the convex hull property it contains the triangle.
     #[must_use]
     pub fn bounding_box(&self) -> BoundingBox {
-        let first = self.control_points[0];
-        let point = BoundingBox { min: first, max: first };
-        self.control_points.iter().fold(point, |b, &p| BoundingBox { min: b.min.min(p), max: b.max.max(p) })
+        points_box(&self.control_points)
     }
 }
 

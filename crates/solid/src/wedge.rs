@@ -3,7 +3,7 @@
 use casteljau_bernstein::{MAX_DEGREE, TriangleNet, WedgeNet, basis_barycentric, last_barycentric};
 use casteljau_geom::glam::{DVec3, DVec4};
 use casteljau_geom::{BoundingBox, Interval, SolidJet, multi_indices, rounding_bound};
-use casteljau_shape::control_net::{check_degree, checked, hull_box, largest_weight, lifted};
+use casteljau_shape::control_net::{check_degree, checked, hull_box, largest_weight, lifted, points_box};
 use casteljau_shape::{ControlPoint, Parameters, ShapeError};
 
 use crate::{ParametricSolid, SolidDomain, SolidError};
@@ -189,9 +189,7 @@ impl Wedge {
     /// The box around the control points; by the convex hull property it contains the solid.
     #[must_use]
     pub fn bounding_box(&self) -> BoundingBox {
-        let first = self.control_points[0];
-        let point = BoundingBox { min: first, max: first };
-        self.control_points.iter().fold(point, |b, &p| BoundingBox { min: b.min.min(p), max: b.max.max(p) })
+        points_box(&self.control_points)
     }
 }
 

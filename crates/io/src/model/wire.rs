@@ -19,8 +19,8 @@ mod curve;
 mod gb_patch;
 mod net;
 mod patch;
+mod simplex;
 mod solid;
-mod triangle;
 
 /// The kinds, with the words for them.
 const KINDS: [(&str, Kind); 12] = [
@@ -279,8 +279,8 @@ impl<'de> DeserializeSeed<'de> for Kind {
             Self::PowerCurve => described::<curve::PowerCurve, D>(json),
             Self::Patch => described::<patch::Patch, D>(json),
             Self::PowerPatch => described::<patch::PowerPatch, D>(json),
-            Self::Triangle => described::<triangle::Triangle, D>(json),
-            Self::Tetrahedron => described::<solid::Tetrahedron, D>(json),
+            Self::Triangle => described::<simplex::Simplex<3>, D>(json),
+            Self::Tetrahedron => described::<simplex::Simplex<4>, D>(json),
             Self::Hexahedron => described::<solid::Hexahedron, D>(json),
             Self::Wedge => described::<solid::Wedge, D>(json),
             Self::Transitional => described::<construction::Transitional, D>(json),

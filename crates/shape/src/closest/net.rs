@@ -1,8 +1,8 @@
 //! Homogeneous nets in coordinates of their own: centred, scaled by a power of two, of moderate weights.
 
 use casteljau_bernstein::{TensorNet, restrict_tensor};
-use casteljau_geom::UNIT_ROUNDOFF;
 use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
+use casteljau_geom::{UNIT_ROUNDOFF, power_of_two_below};
 
 use crate::{ControlPoint, ShapeError};
 
@@ -241,10 +241,4 @@ pub(super) fn check_weights(points: &[DVec4]) -> Result<(), ShapeError> {
 pub(super) fn positive<P: ControlPoint>(points: &[P]) -> Vec<DVec4> {
     let points = crate::control_point::homogeneous(points);
     if points.iter().all(|p| p.w < 0.0) { points.into_iter().map(|p| -p).collect() } else { points }
-}
-
-/// The largest power of two that is not above a positive number; 1 for 0.
-fn power_of_two_below(x: f64) -> f64 {
-    // The sign and fraction bits removed; subnormal numbers become the smallest normal one.
-    if x > 0.0 { f64::from_bits(x.max(f64::MIN_POSITIVE).to_bits() & (0x7ff << 52)) } else { 1.0 }
 }

@@ -1,6 +1,7 @@
 //! How much a solid bends: bounds on its second derivatives, and the lattice that keeps a chord tolerance.
 
 use casteljau_geom::glam::{DVec3, DVec4, Vec4Swizzles};
+use casteljau_geom::power_of_two_below;
 use casteljau_shape::bernstein::BernsteinError;
 
 use super::net::{Degrees, Part, Points, SolidNet};
@@ -40,8 +41,8 @@ impl Bends {
     pub fn new(net: &SolidNet, solid: usize) -> Result<Self, TessError> {
         let (degrees, mut points) = (net.degrees, net.homogeneous());
         // Brought near 1, so that no cube of a weight and no square of a length leaves the range of numbers.
-        let space = binade(largest(points.iter().map(|p| p.xyz().abs().max_element())));
-        let weight = binade(largest(points.iter().map(|p| p.w.abs())));
+        let space = power_of_two_below(largest(points.iter().map(|p| p.xyz().abs().max_element())));
+        let weight = power_of_two_below(largest(points.iter().map(|p| p.w.abs())));
         points.iter_mut().for_each(|p| *p = (p.xyz() / space).extend(p.w / weight));
         let kernel = |source: BernsteinError| TessError::Solid { solid, source: source.into() };
         let rule = match net.points {
@@ -215,12 +216,6 @@ pub(crate) fn one_sign(net: &[DVec4]) -> bool {
 /// Infinity where one is not a number, as weights of all but no size beside others make it.
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, |most, x| if x.is_nan() { f64::INFINITY } else { most.max(x) })
-}
-
-/// The power of two at or below a number; 1 where that has none.
-pub(crate) fn binade(x: f64) -> f64 {
-    let power = f64::from_bits(x.to_bits() & (0x7ff << 52));
-    if power > 0.0 && power.is_finite() { power } else { 1.0 }
 }
 
 /// The parameters of a point in a part: the first three of its local ones, the height in place of the third in a wedge.

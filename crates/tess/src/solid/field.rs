@@ -1,10 +1,9 @@
 //! Scalar fields over solids.
 
 use casteljau_geom::glam::DVec4;
-use casteljau_geom::{UNIT_ROUNDOFF, rounding_bound};
+use casteljau_geom::{UNIT_ROUNDOFF, power_of_two_below, rounding_bound};
 use casteljau_shape::bernstein::{MAX_DEGREE, simplex_count};
 
-use super::bends::binade;
 use super::net::{Degrees, SolidNet};
 use crate::TessError;
 
@@ -101,7 +100,7 @@ impl Level {
     pub fn of_field(field: &SolidField, value: f64) -> Self {
         let scale = field.coefficients.iter().fold(value.abs(), |max, c| max.max(c.abs()));
         // Brought near 1, so that no square of a slope leaves the range of numbers.
-        let unit = binade(scale);
+        let unit = power_of_two_below(scale);
         let coefficients = field.coefficients.iter().map(|c| c / unit - value / unit).collect();
         Self::new(field.degrees, coefficients, 2.0 * (scale / unit))
     }

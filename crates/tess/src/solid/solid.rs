@@ -1,13 +1,12 @@
 //! The solids that a mesh can be made of.
 
-use casteljau_geom::SolidJet;
+use casteljau_geom::{SolidJet, power_of_two_below};
 use casteljau_shape::bernstein::multi_indices;
 use casteljau_solid::{
     ConstructedSolid, Hexahedron, ParametricSolid, RationalHexahedron, RationalTetrahedron, RationalWedge,
     SolidError, Tetrahedron, Wedge,
 };
 
-use super::bends::binade;
 use crate::TessError;
 
 /// A solid of a model, of any kind.
@@ -123,7 +122,7 @@ impl Solid<'_> {
         // Its sign only: each derivative is brought near 1 by a power of two, so that no product of three leaves the range of numbers.
         let jacobian = |at: [f64; 3]| {
             let SolidJet { du, dv, dw, .. } = solid.try_jet(at).map_err(wrong)?;
-            let [u, v, w] = [du, dv, dw].map(|d| d / binade(d.abs().max_element()));
+            let [u, v, w] = [du, dv, dw].map(|d| d / power_of_two_below(d.abs().max_element()));
             Ok::<f64, TessError>(u.dot(v.cross(w)))
         };
         let at_center = jacobian(domain.center())?;
